@@ -1,4 +1,4 @@
-//! Diagnostics: sentence, code and bytes of each.
+//! Diagnostics: sentence, code, number and bytes of each.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -251,6 +251,67 @@ fn codes_are_the_names_in_serde() {
         let finding = &json[severity.as_str().unwrap()];
         let is_named = finding == diagnostic.code() || finding.get(diagnostic.code()).is_some();
         assert!(is_named, "{json} is not named {}", diagnostic.code());
+    }
+}
+
+/// Codes in the order of the numbers by which databases store them: new ones come last.
+const NUMBERED: [&[&str]; 3] = [
+    &[
+        "first_pose_cut",
+        "t_pose_cut",
+        "text_after_motion",
+        "last_row_incomplete",
+        "pointers_not_read",
+        "turn_rate_snapped",
+        "strafe_snapped",
+        "windows_left_out",
+        "example_left_out",
+        "only_rest_used",
+        "same_take",
+        "coincident_example",
+        "low_parts_left_out",
+    ],
+    &[
+        "inhuman_size",
+        "unit_rejected",
+        "sides_exchanged",
+        "leap",
+        "slope",
+        "skating",
+        "turn_without_step",
+        "jump",
+        "feet_slide",
+        "feet_hardly_planted",
+        "frame_count_wrong",
+        "t_pose_kept",
+        "frame_times_differ",
+        "not_compared",
+        "unit_doubtful",
+    ],
+    &[
+        "up_contradicted",
+        "inhuman_gait",
+        "no_step",
+        "no_whole_stride",
+        "no_steady_stride",
+        "pelvis_out_of_reach",
+        "feet_hardly_planted",
+        "feet_slide",
+        "no_mid_stance",
+        "mid_stance_off",
+        "root_contradicted",
+        "same_take",
+        "not_upright",
+        "t_pose",
+    ],
+];
+
+#[test]
+fn codes_keep_their_numbers_in_databases() {
+    for (diagnostic, _) in sentences() {
+        let bytes = bincode::serde::encode_to_vec(&diagnostic, bincode::config::standard()).unwrap();
+        let [severity, number] = [bytes[0], bytes[1]].map(usize::from);
+        assert_eq!(NUMBERED[severity].get(number), Some(&diagnostic.code()), "number {number}");
     }
 }
 

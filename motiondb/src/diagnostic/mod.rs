@@ -20,7 +20,7 @@ pub use posture::Posture;
 pub use unfit::Unfit;
 pub use warning::Warning;
 
-/// A diagnostic, by severity.
+/// A diagnostic, by severity. Databases store variants by number, so a new one is the last of its severity.
 ///
 /// ```
 /// use motiondb::Side;

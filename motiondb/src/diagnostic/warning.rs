@@ -20,15 +20,6 @@ pub enum Warning {
         /// Length of thigh plus shank in the format's unit, m.
         leg_m: f32,
     },
-    /// Another unit is nearly as likely as the one used. If the unit is wrong, so are all speeds.
-    UnitDoubtful {
-        /// Length of thigh plus shank in the unit used, m.
-        leg_m: f32,
-        /// Length of thigh plus shank in the other unit, m.
-        other_leg_m: f32,
-        /// The other unit, m.
-        other_unit_m: f64,
-    },
     /// Toes and knees contradict the sides that the joints' names state: left and right are exchanged.
     SidesExchanged,
     /// The body's position jumps between two frames.
@@ -108,6 +99,15 @@ pub enum Warning {
     NotCompared {
         /// Number of clips that are compared; these are the longest.
         compared: u32,
+    },
+    /// Another unit is nearly as likely as the one used. If the unit is wrong, so are all speeds.
+    UnitDoubtful {
+        /// Length of thigh plus shank in the unit used, m.
+        leg_m: f32,
+        /// Length of thigh plus shank in the other unit, m.
+        other_leg_m: f32,
+        /// The other unit, m.
+        other_unit_m: f64,
     },
 }
 

@@ -16,7 +16,7 @@ use motiondb::diagnostic::{Diagnostic, Note, Posture, Unfit};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::{CompileError, HumanClip, Options, compile, import_bytes};
 use zoo::body::{Performance, Pose, part};
-use zoo::file::{self, File, RootOffset};
+use zoo::file::{self, File};
 use zoo::names::tools;
 use zoo::rig::{self, Rest};
 
@@ -124,17 +124,7 @@ fn capture(parts: &[&Performance]) -> Performance {
 fn imported(body: &Performance) -> HumanClip {
     let names = &tools()[0];
     let rig = rig::build(body, names, &[], Rest::TPose, || DQuat::IDENTITY);
-    let file = File {
-        axes: DQuat::IDENTITY,
-        units_per_m: 100.0,
-        size: 1.0,
-        shift_m: DVec3::ZERO,
-        order: 0,
-        rotations_first: false,
-        positions_everywhere: false,
-        root_offset: RootOffset::Replaced,
-        is_left_handed: false,
-    };
+    let file = File::plain(100.0, 1.0);
     let text = file::write(body, &rig, &file);
     import_bytes(Path::new("capture.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
 }

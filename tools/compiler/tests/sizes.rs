@@ -13,12 +13,12 @@ mod support;
 use std::fs;
 use std::path::Path;
 
-use glam::{DQuat, DVec3};
+use glam::DQuat;
 use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb_compiler::{HumanClip, import_bytes, import_file};
 use support::mocap;
 use zoo::body::{Performance, part};
-use zoo::file::{self, File, RootOffset};
+use zoo::file::{self, File};
 use zoo::names::tools;
 use zoo::rig::{self, Rest};
 
@@ -27,17 +27,7 @@ fn walk(leg_m: f64, units_per_m: f64) -> HumanClip {
     let body = Performance::read("walk_110");
     let adult_m: f64 = ["LeftLeg", "LeftFoot"].map(|name| body.offsets_m[part(name)].length()).into_iter().sum();
     let rig = rig::build(&body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
-    let file = File {
-        axes: DQuat::IDENTITY,
-        units_per_m,
-        size: leg_m / adult_m,
-        shift_m: DVec3::ZERO,
-        order: 0,
-        rotations_first: false,
-        positions_everywhere: false,
-        root_offset: RootOffset::Replaced,
-        is_left_handed: false,
-    };
+    let file = File::plain(units_per_m, leg_m / adult_m);
     let text = file::write(&body, &rig, &file);
     import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
 }

@@ -3,9 +3,9 @@
 //! Enters: joints in source units and axes, and their roles. Leaves: the performer's body; poses in world coordinates
 //! (metres, z up, soles at z = 0); the mean speed, turn rate and side speed of the clip.
 //!
-//! Read `stated_facing`, `foot_passings` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters` (whole-clip
-//! parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last `to_humanoid`, which
-//! makes the `human_clip`.
+//! Read `stated_facing`, `foot_passings` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters`
+//! (whole-clip parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last
+//! `to_humanoid`, which makes the `human_clip`.
 
 pub(crate) mod anchors;
 pub(crate) mod calibration;

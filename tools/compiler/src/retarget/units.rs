@@ -3,8 +3,9 @@
 //! Zero poses and OFFSETs do not show the up axis: LaFAN1's bones all lie along +X, iClone's zero pose along Z. Up is
 //! the axis nearest to the direction from feet to shoulders, averaged over all frames.
 //!
-//! The unit is the one of least misfit: of the leg to a person's, of the cadence to that of a pendulum of that length,
-//! and of the unit to those that tools write. Step lengths, in legs, are the same in every unit and tell nothing.
+//! The unit is the one of least misfit. Three misfits are added: of the leg, to a person's; of the cadence, to that of
+//! legs of this length, which swing as pendulums do; and of the unit, to those that tools write. A step has the same
+//! length in legs in every unit and tells nothing.
 
 use std::ops::RangeInclusive;
 
@@ -22,16 +23,14 @@ use crate::rig::roles::Roles;
 pub const HUMAN_LEG_M: f64 = 0.84;
 /// Weight of a leg that is too long, against one that is too short: performers are children more often than giants.
 const TOO_LONG_WEIGHT: f64 = 1.6;
-/// Units of sources, m, and what it costs to presume each: metre, decimetre, centimetre, millimetre, inch, and 1/0.45
-/// inch of the CMU files. Costs are logarithms of ratios, as all misfits.
+/// Units of sources, m, each with its misfit: metre, decimetre, centimetre, millimetre, inch, and 1/0.45 inch of the CMU
+/// files. All misfits are logarithms of ratios. Few tools write the units of great misfit.
 const UNITS: [(f64, f64); 6] = [(1.0, 0.0), (0.1, 0.5), (0.01, 0.0), (0.001, 0.5), (0.0254, 0.6), (0.0564444, 0.65)];
 /// Strides per second times √(leg length / g), from a slow walk to a sprint (2.4 strides/s on legs of 0.84 m).
 const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
 /// Gravity, m/s².
 const GRAVITY_MPS2: f64 = 9.81;
-/// Steps from which a cadence counts.
-const STEPS_MIN: usize = 3;
-/// Difference of misfits below which the second unit may be the right one: a ratio of legs of 1.35.
+/// Difference of misfits below which the second unit may be the right one: that of legs 1.35 times as long.
 const NEAR_MISFIT: f64 = 0.3;
 
 /// Share of the frames in which feet and shoulders are nearer than those that stand.
@@ -76,11 +75,11 @@ fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
     best.unit_m
 }
 
-/// Strides per second; none of a clip of hardly a step.
+/// Strides per second; none of a clip of fewer than three steps.
 fn strides_hz(clip: &SourceClip, roles: &Roles, leg_units: f64) -> Option<f64> {
     let passings = foot_passings(clip, roles, LEAD_MIN_M / HUMAN_LEG_M * leg_units);
     let stride_frames = median(passings.windows(3).map(|stride| (stride[2] - stride[0]) as f64))?;
-    (passings.len() >= STEPS_MIN).then(|| clip.frame_rate_hz / stride_frames)
+    Some(clip.frame_rate_hz / stride_frames)
 }
 
 /// Midpoint of a pair of roles in one frame.
@@ -118,11 +117,11 @@ struct UnitMisfit {
 
 /// The two likeliest units of a body whose legs are this many units long, the likelier first.
 fn likeliest_units(leg_units: f64, strides_hz: Option<f64>) -> [UnitMisfit; 2] {
-    let misfit = |(unit_m, cost): (f64, f64)| {
+    let mut units = UNITS.map(|(unit_m, unit_misfit)| {
         let leg_m = leg_units * unit_m;
-        UnitMisfit { unit_m, misfit: leg_misfit(leg_m) + strides_hz.map_or(0.0, |hz| cadence_misfit(leg_m, hz)) + cost }
-    };
-    let mut units = UNITS.map(misfit);
+        let cadence_misfit = strides_hz.map_or(0.0, |hz| cadence_misfit(leg_m, hz));
+        UnitMisfit { unit_m, misfit: leg_misfit(leg_m) + cadence_misfit + unit_misfit }
+    });
     units.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
     [units[0], units[1]]
 }
@@ -133,7 +132,7 @@ fn leg_misfit(leg_m: f64) -> f64 {
     f64::max(-log, TOO_LONG_WEIGHT * log)
 }
 
-/// How far a cadence lies outside those of legs of this length, which swing as pendulums do.
+/// How far a cadence lies outside those of legs of this length.
 fn cadence_misfit(leg_m: f64, strides_hz: f64) -> f64 {
     let cadence = strides_hz * (leg_m / GRAVITY_MPS2).sqrt();
     let (slow, fast) = (libm::log(CADENCE_RANGE.start() / cadence), libm::log(cadence / CADENCE_RANGE.end()));
@@ -171,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_cadence_tells_an_inch_from_a_centimetre() {
-        // A leg of 36 units: 0.36 m or 0.91 m. No legs of 0.91 m stride at 4 Hz; a clip of 0.36 m that is played fast may.
+        // A leg of 36 units has 0.36 m or 0.91 m. Legs of 0.36 m come near to 4 strides/s; longer ones do not.
         check_unit(0.36, 0.01, Some(4.0));
         check_unit(0.91, 0.0254, Some(0.9));
     }

@@ -140,8 +140,6 @@ impl Combination {
         };
         let file = File {
             axes: to_up * DQuat::from_rotation_y(heading.to_radians()),
-            units_per_m: 1.0 / unit.1,
-            size,
             shift_m: if dice.chance(0.5) {
                 DVec3::ZERO
             } else {
@@ -151,7 +149,7 @@ impl Combination {
             rotations_first: dice.chance(0.15),
             positions_everywhere: dice.chance(0.25),
             root_offset: dice.pick(&[RootOffset::Zero, RootOffset::Replaced, RootOffset::Added]),
-            is_left_handed: false,
+            ..File::plain(1.0 / unit.1, size)
         };
         let frame_rate_hz = dice.pick(&[24.0, 25.0, 30.0, 30.0, 50.0, 60.0, 60.0, 100.0, 120.0]);
         let is_mirrored = dice.chance(0.4);

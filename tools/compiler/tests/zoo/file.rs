@@ -43,6 +43,23 @@ pub(crate) struct File {
     pub is_left_handed: bool,
 }
 
+impl File {
+    /// A file of y up and z forward, its channels in the usual order, its root at the origin.
+    pub(crate) fn plain(units_per_m: f64, size: f64) -> Self {
+        Self {
+            axes: DQuat::IDENTITY,
+            units_per_m,
+            size,
+            shift_m: DVec3::ZERO,
+            order: 0,
+            rotations_first: false,
+            positions_everywhere: false,
+            root_offset: RootOffset::Replaced,
+            is_left_handed: false,
+        }
+    }
+}
+
 struct Track {
     offset: DVec3,
     /// Position and rotation against the parent.
