@@ -55,6 +55,20 @@ fn a_single_walk_has_every_gap_but_walking() {
 }
 
 #[test]
+fn a_run_a_few_degrees_aside_runs_straight_on() {
+    let gaps = |aside_mps: f32| coverage(&set(&[[1.2, 0.0, 0.0], [4.0, 0.0, aside_mps]], 0, &[0]));
+    assert_eq!(sentences(&gaps(0.28), GapKind::Running), [""; 0]);
+    assert_eq!(sentences(&gaps(0.6), GapKind::Running).len(), 1);
+}
+
+#[test]
+fn steps_aside_and_in_place_do_not_walk_ahead() {
+    let walk = "No clip walks forward: bodies reach no goal, and no walk can be deformed.";
+    let gaps = coverage(&set(&[[0.04, 0.0, 0.6], [0.02, 1.2, 0.0]], 0, &[0]));
+    assert_eq!(sentences(&gaps, GapKind::Walking), [walk]);
+}
+
+#[test]
 fn wide_turns_and_gaps_are_measured() {
     // At 1.2 m/s the hull ends between the turn at 0.8 and the run at 2.2 m/s: 0.45 rad/s · 1.0 / 1.4.
     let points = [[1.2, 0.0, 0.0], [0.0, 0.0, 0.0], [0.8, 0.45, 0.0], [0.8, -0.45, 0.0], [2.2, 0.0, 0.0]];

@@ -93,6 +93,11 @@ fn warnings() -> Vec<(Warning, &'static str)> {
              `metres_per_unit = 0.0254` in a manifest.toml",
         ),
         (
+            Warning::FrameTimeDoubtful { step_cm: 68.0, steps_per_min: 52.0, frame_rate_hz: 60.0 },
+            "steps of 68 cm, only 52 a minute, look like slow motion; if the clip was recorded at another rate than 60 \
+             Hz, state `frame_rate_hz` in a manifest.toml",
+        ),
+        (
             Warning::SidesExchanged,
             "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \
              if the names are right, state `joints` in a manifest.toml",
@@ -230,6 +235,11 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (Unfit::TPose, "the body stands in a T-pose; use a clip of a body that stands at ease"),
         (
+            Unfit::MovesLengthwise,
+            "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a clip \
+             of walking or standing",
+        ),
+        (
             Unfit::NotUpright { posture: Posture::Crouching },
             "the body crouches; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml",
         ),
@@ -287,6 +297,7 @@ const NUMBERED: [&[&str]; 3] = [
         "frame_times_differ",
         "not_compared",
         "unit_doubtful",
+        "frame_time_doubtful",
     ],
     &[
         "up_contradicted",
@@ -303,6 +314,7 @@ const NUMBERED: [&[&str]; 3] = [
         "same_take",
         "not_upright",
         "t_pose",
+        "moves_lengthwise",
     ],
 ];
 

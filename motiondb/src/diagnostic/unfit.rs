@@ -84,6 +84,8 @@ pub enum Unfit {
     },
     /// The body stands in a T-pose.
     TPose,
+    /// The body moves along the line from its feet to its shoulders.
+    MovesLengthwise,
 }
 
 impl Unfit {
@@ -104,6 +106,7 @@ impl Unfit {
             Self::SameTake { .. } => "same_take",
             Self::NotUpright { .. } => "not_upright",
             Self::TPose => "t_pose",
+            Self::MovesLengthwise => "moves_lengthwise",
         }
     }
 }
@@ -167,6 +170,10 @@ impl fmt::Display for Unfit {
             Self::NotUpright { posture } => write!(
                 out,
                 "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
+            ),
+            Self::MovesLengthwise => out.write_str(
+                "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \
+                 clip of walking or standing",
             ),
             Self::TPose => out.write_str("the body stands in a T-pose; use a clip of a body that stands at ease"),
         }

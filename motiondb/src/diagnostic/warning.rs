@@ -109,6 +109,15 @@ pub enum Warning {
         /// The other unit, m.
         other_unit_m: f64,
     },
+    /// The steps are those of a walk in slow motion. If the frame time is wrong, so are all speeds.
+    FrameTimeDoubtful {
+        /// Median length of a step, cm.
+        step_cm: f32,
+        /// Median number of steps a minute.
+        steps_per_min: f32,
+        /// Frame rate that is used, Hz.
+        frame_rate_hz: f32,
+    },
 }
 
 impl Warning {
@@ -130,6 +139,7 @@ impl Warning {
             Self::TPoseKept { .. } => "t_pose_kept",
             Self::FrameTimesDiffer { .. } => "frame_times_differ",
             Self::NotCompared { .. } => "not_compared",
+            Self::FrameTimeDoubtful { .. } => "frame_time_doubtful",
         }
     }
 }
@@ -151,6 +161,11 @@ impl fmt::Display for Warning {
                 out,
                 "the unit is doubtful: thigh and shank are taken to be {leg_m:.2} m long; if they are {other_leg_m:.2} m \
                  long, state `metres_per_unit = {other_unit_m}` in a manifest.toml"
+            ),
+            Self::FrameTimeDoubtful { step_cm, steps_per_min, frame_rate_hz } => write!(
+                out,
+                "steps of {step_cm:.0} cm, only {steps_per_min:.0} a minute, look like slow motion; if the clip was \
+                 recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
             ),
             Self::SidesExchanged => out.write_str(
                 "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \

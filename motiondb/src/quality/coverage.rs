@@ -11,7 +11,7 @@ use crate::blend_space::locator::Locator;
 use crate::body::skeleton::Side;
 use crate::motion::motion_db::MotionDb;
 use crate::motion::parameters::Parameters;
-use crate::velocity_sets::velocity_hull::{TURNING_STRAFE_MAX_MPS, is_holding};
+use crate::velocity_sets::velocity_hull::{goes_straight, is_holding};
 
 /// Least speed of a motion that leaves its position, m/s; the compiler mirrors examples from this side speed on.
 const MOVES_MPS: f32 = 0.15;
@@ -82,15 +82,14 @@ pub fn coverage(db: &MotionDb) -> Vec<CoverageGap> {
     gaps_by_kind.concat()
 }
 
-/// Whether an example steps forward: without one, bodies reach no goal.
+/// Whether an example walks forward, more than steps aside or in place do: without one, bodies reach no goal.
 pub fn walks_ahead(db: &MotionDb) -> bool {
-    db.examples.iter().any(|example| example.key_times_s.is_some() && example.parameters.speed_mps > 0.0)
+    db.examples.iter().any(|example| example.key_times_s.is_some() && example.parameters.speed_mps >= MOVES_MPS)
 }
 
 /// Speeds of the examples that go straight on or back, m/s.
 fn straight_speeds_mps(db: &MotionDb) -> impl Iterator<Item = f32> {
-    let is_straight = |found: &Parameters| is_holding(found) && found.strafe_mps.abs() <= TURNING_STRAFE_MAX_MPS;
-    db.parameters().filter(is_straight).map(|found| found.speed_mps)
+    db.parameters().filter(goes_straight).map(|found| found.speed_mps)
 }
 
 /// Gaps of standing, walking, running and stepping back.

@@ -15,8 +15,10 @@ use crate::motion::parameters::Parameters;
 use crate::velocity_sets::convex_hull::clockwise_hull;
 use crate::velocity_sets::wrapping_polygon::sharp_turn_edges;
 
-/// Greatest side speed that counts as ω_s = 0 in the turning set, m/s; no measured clip has exactly 0.
-pub const TURNING_STRAFE_MAX_MPS: f32 = 0.12;
+/// Greatest side speed that counts as ω_s = 0, m/s; no measured clip has exactly 0.
+const STRAIGHT_STRAFE_MAX_MPS: f32 = 0.12;
+/// The same as a share of the forward speed, 6° aside; the greater of both limits counts.
+const STRAIGHT_STRAFE_MAX_SHARE: f32 = 0.1;
 /// Least forward speed of examples in the turning set, m/s; slower ones walk backward.
 pub const TURNING_SPEED_MIN_MPS: f32 = -0.05;
 /// Greatest turn rate of examples in the holding set, rad/s: 10 °/s.
@@ -84,7 +86,18 @@ pub fn holding_point_mps(parameters: &Parameters) -> Vec2 {
 
 /// Whether an example belongs to the turning set.
 pub fn is_turning(parameters: &Parameters) -> bool {
-    parameters.strafe_mps.abs() <= TURNING_STRAFE_MAX_MPS && parameters.speed_mps >= TURNING_SPEED_MIN_MPS
+    faces_its_way(parameters) && parameters.speed_mps >= TURNING_SPEED_MIN_MPS
+}
+
+/// Whether a body faces the way it goes, or turns its back on it: ω_s = 0 within the tolerance.
+pub fn faces_its_way(parameters: &Parameters) -> bool {
+    let limit_mps = STRAIGHT_STRAFE_MAX_MPS.max(STRAIGHT_STRAFE_MAX_SHARE * parameters.speed_mps.abs());
+    parameters.strafe_mps.abs() <= limit_mps
+}
+
+/// Whether a body goes straight, on or back: it neither turns nor side-steps.
+pub fn goes_straight(parameters: &Parameters) -> bool {
+    is_holding(parameters) && faces_its_way(parameters)
 }
 
 /// Whether an example belongs to the holding set.
@@ -121,6 +134,17 @@ fn widened(from_mps: Vec2, to_mps: Vec2) -> [Vec2; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn courses_are_judged_by_angle_and_by_speed() {
+        let is_straight = |speed_mps: f32, aside_deg: f32| {
+            let strafe_mps = speed_mps * aside_deg.to_radians();
+            goes_straight(&Parameters { speed_mps, turn_rate_rad_s: 0.0, strafe_mps })
+        };
+        assert!(is_straight(4.0, 4.0) && !is_straight(4.0, 8.0));
+        assert!(is_straight(0.5, 8.0) && !is_straight(0.5, 20.0));
+        assert!(is_straight(-2.0, 4.0));
+    }
 
     #[test]
     fn fast_turns_end_after_half_a_turn() {

@@ -14,7 +14,7 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Warning};
+use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
@@ -203,9 +203,15 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let parameters = parameters_of_trimmed(&mut clip, &roles, settings);
     let mut warnings = vec![plausibility::size_warning(&clip, &roles)];
     // A body that does not stand along the up axis has no feet on the ground.
-    let unfit = contradicted_up.clone().or_else(|| {
+    let unfit = contradicted_up.clone().or(roles.moves_lengthwise.then_some(Unfit::MovesLengthwise)).or_else(|| {
         warnings.push(level_ground::warning(&clip, &roles, &parameters));
-        plausibility::inhuman_gait(&clip, &roles, &parameters)
+        match plausibility::doubtful_gait(&clip, &roles, &parameters)? {
+            Diagnostic::NoExample(unfit) => Some(unfit),
+            doubt => {
+                clip.diagnostics.push(doubt);
+                None
+            }
+        }
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();

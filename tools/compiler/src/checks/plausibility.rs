@@ -23,6 +23,9 @@ use crate::rig::roles::Roles;
 
 /// Plausible walk ratios, cm/(step/min), for a person's leg. Development set: 0.27 (small steps) to 1.1 (sprint).
 const WALK_RATIO_CM_MIN: RangeInclusive<f64> = 0.15..=2.0;
+/// Walk ratio above which a walk looks like slow motion, cm/(step/min), for a person's leg: half the frame rate doubles
+/// the ratio. Development set: 0.93 and less.
+const SLOW_MOTION_CM_MIN: f64 = 1.05;
 /// Greatest cadence, steps/min, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
 /// Greatest cadence of a walk, steps/min, for a person's leg (race walkers over 20 km: 186 to 210).
@@ -86,8 +89,9 @@ pub(crate) fn impossible_body(body: &HumanBody) -> Option<RejectionReason> {
     }
 }
 
-/// The verdict that no human steps so. The frame time is wrong, and with it all speeds.
-pub(crate) fn inhuman_gait(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Option<Unfit> {
+/// The verdict that no human steps so, because the frame time is wrong, and with it all speeds; or the warning that it
+/// may be.
+pub(crate) fn doubtful_gait(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Option<Diagnostic> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let passings = foot_passings(clip, roles, LEAD_MIN_M * scale);
     let steps: Vec<(usize, usize)> = passings.windows(2).map(|pair| (pair[0], pair[1])).collect();
@@ -102,11 +106,18 @@ pub(crate) fn inhuman_gait(clip: &SourceClip, roles: &Roles, parameters: &Source
         false => median(steps.iter().map(|&(from, to)| (hips(to) - hips(from)).length()))?,
     };
     let (human_step_cm, human_cadence) = (100.0 * step_m / scale, 60.0 / step_s * scale.sqrt());
-    let cadence_max = if walks(clip, roles, parameters) { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };
-    let is_human = human_step_cm < 100.0 * STEP_MIN_M
-        || human_cadence < cadence_max && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
+    let (walks, walk_ratio) = (walks(clip, roles, parameters), human_step_cm / human_cadence);
+    let cadence_max = if walks { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };
     let [step_cm, steps_per_min] = [100.0 * step_m, 60.0 / step_s].map(|figure| figure as f32);
-    (!is_human).then_some(Unfit::InhumanGait { step_cm, steps_per_min })
+    if human_step_cm < 100.0 * STEP_MIN_M {
+        None
+    } else if human_cadence >= cadence_max || !WALK_RATIO_CM_MIN.contains(&walk_ratio) {
+        Some(Diagnostic::NoExample(Unfit::InhumanGait { step_cm, steps_per_min }))
+    } else {
+        let frame_rate_hz = clip.frame_rate_hz as f32;
+        let warning = Warning::FrameTimeDoubtful { step_cm, steps_per_min, frame_rate_hz };
+        (walks && walk_ratio > SLOW_MOTION_CM_MIN).then_some(Diagnostic::Warning(warning))
+    }
 }
 
 /// Whether feet stand as long as in a walk.

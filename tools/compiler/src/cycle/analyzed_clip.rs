@@ -48,6 +48,7 @@ impl AnalyzedClip {
     /// held once.
     pub(crate) fn of(clip: &mut HumanClip, body: &HumanBody) -> Self {
         let frame_count = clip.frames.len();
+        let growth = body.leg_length_m() / clip.body.leg_length_m();
         let performer = PerformerGait::of(clip);
         let grounded = performer.clip_on(clip, body);
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
@@ -57,7 +58,14 @@ impl AnalyzedClip {
         match found {
             Ok(found) => {
                 for window in found {
-                    match steady_cycle(&times, &grounded, body, &performer.gait.stances[window.reading], &window) {
+                    match steady_cycle(
+                        &times,
+                        &grounded,
+                        body,
+                        growth,
+                        &performer.gait.stances[window.reading],
+                        &window,
+                    ) {
                         Ok(steady) => windows.push(steady),
                         Err(unfit) => reasons.push(unfit),
                     }
@@ -147,11 +155,13 @@ impl ClipTimes {
     }
 }
 
-/// The steady cycle of a window, or why it is unfit. `stances` are those of both feet, `[left, right]`.
+/// The steady cycle of a window, or why it is unfit. The body is `growth` times as large as the performer; `stances`
+/// are those of both feet, `[left, right]`.
 fn steady_cycle(
     times: &ClipTimes,
     grounded: &GroundedClip,
     body: &HumanBody,
+    growth: f64,
     stances: &[Vec<FootStance>; 2],
     window: &GaitWindow,
 ) -> Result<SteadyCycle, Unfit> {
@@ -160,7 +170,7 @@ fn steady_cycle(
         WindowGait::Stands(frames) => SteadyCycle::of_rest(grounded, frames, body, window_s),
         WindowGait::Steps(strides) => {
             let cycle = mean_stride(grounded, body, stances, strides);
-            SteadyCycle::of_strides(cycle, strides, body, window_s)
+            SteadyCycle::of_strides(cycle, strides, body, growth, window_s)
         }
     }
 }

@@ -15,7 +15,8 @@ use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
 /// Share of the cycle below which a planted foot is suspect; sprinters' feet are planted for 0.22.
 const SUSPECT_SHARE: f64 = 0.2;
-/// Slide above which a cycle shows no stance, cm/s: blended into a crowd it drags all feet. Noisy captures reach 18.
+/// Slide above which a cycle shows no stance, cm/s on the performer: blended into a crowd it drags all feet. Noisy
+/// captures reach 18.
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 /// The same as a share of the body's speed; the greater of both limits counts. Hand-keyed runs reach 0.07.
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
@@ -40,13 +41,15 @@ pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
 }
 
 /// Why the feet of a cycle make it unfit, if they do: no stance, or contacts that contradict its landmarks or its root.
-pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, slide: &FootSlide) -> Option<Unfit> {
+/// The body is `growth` times as large as the performer, whom the verdict concerns: other clips of a set do not change
+/// it.
+pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide: &FootSlide) -> Option<Unfit> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
     let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
     if planted_share < NO_STANCE_SHARE {
         return Some(Unfit::FeetHardlyPlanted { planted_share: planted_share as f32 });
     }
-    if slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s) {
+    if slide_cm_s > (growth * EXCESSIVE_SLIDE_CM_S).max(EXCESSIVE_SLIDE_SHARE * speed_cm_s) {
         return Some(Unfit::FeetSlide { slide_cm_s: slide_cm_s as f32 });
     }
     validate::contradiction(&cycle_feet(cycle, body), cycle.rates.to_parameters())
@@ -86,5 +89,19 @@ mod tests {
         let mut cycle = cycle_of(&clip);
         cycle.rates.speed_mps += 0.1;
         assert!((foot_slide(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn slide_is_judged_on_the_performer() {
+        let clip = synthetic::walk("walk", SyntheticWalk::default());
+        let mut cycle = cycle_of(&clip);
+        cycle.rates.speed_mps += 0.35;
+        let slide = foot_slide(&cycle, &clip.body);
+        let slides = |growth: f64| {
+            let unfit = unfit_feet(&cycle, &clip.body, growth, &slide);
+            matches!(unfit, Some(Unfit::FeetSlide { .. }))
+        };
+        assert!(slides(1.0) && slides(0.5), "{slide:?}");
+        assert!(!slides(2.4), "{slide:?}");
     }
 }

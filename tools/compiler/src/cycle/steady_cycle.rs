@@ -49,7 +49,7 @@ pub(crate) enum SteadyMotion {
 }
 
 impl SteadyCycle {
-    /// The steady cycle of a window of strides, by their mean.
+    /// The steady cycle of a window of strides, by their mean, on a body `growth` times as large as the performer.
     ///
     /// # Errors
     /// Why the cycle must not be blended with others.
@@ -57,6 +57,7 @@ impl SteadyCycle {
         mut cycle: GaitCycle,
         strides: &[Stride],
         body: &HumanBody,
+        growth: f64,
         window_s: [f64; 2],
     ) -> Result<Self, Unfit> {
         let mut diagnostics = snap_rates(&mut cycle);
@@ -64,7 +65,7 @@ impl SteadyCycle {
         if leaves_root(cycle.rows.iter().map(|row| row.pelvis_m), body) {
             return Err(Unfit::PelvisOutOfReach);
         }
-        if let Some(unfit) = unfit_feet(&cycle, body, &slide) {
+        if let Some(unfit) = unfit_feet(&cycle, body, growth, &slide) {
             return Err(unfit);
         }
         let warnings = foot_warnings(&cycle.rates, &slide);

@@ -112,7 +112,7 @@ pub enum RejectionReason {
         joint_spans(likeliest_legs)
     )]
     NoArms {
-        /// First and last joint of each likeliest leg. On a skeleton without knees or ankles these are the arms.
+        /// First and last joint of each likeliest leg. On an unnamed skeleton without knees or ankles these are the arms.
         likeliest_legs: Box<[[String; 2]; 2]>,
     },
     /// A pose is not finite.
@@ -160,12 +160,6 @@ pub enum RejectionReason {
         /// Angle between the legs' direction (toes → hips) and the trunk (hips → shoulders), degrees.
         trunk_deg: f64,
     },
-    /// The body moves along the line from its feet to its shoulders.
-    #[error(
-        "not upright: the body moves along its own length, as one that crawls, swims or climbs; use clips of a walking \
-         human skeleton"
-    )]
-    MovesLengthwise,
 }
 
 impl RejectionReason {

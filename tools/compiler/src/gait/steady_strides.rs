@@ -7,10 +7,10 @@
 use crate::gait::stride::{Landmark, Stride};
 use crate::gait::stride_spread::StrideSpread;
 
-/// Greatest difference in speed between the two steps of a lone stride, m/s.
-const STEP_SPEED_MPS: f64 = 0.2;
+/// Greatest difference in speed between two halves of a lone stride, m/s.
+const HALF_SPEED_MPS: f64 = 0.2;
 /// The same as a share of their mean; the greater of both limits counts.
-const STEP_SPEED_SHARE: f64 = 0.25;
+const HALF_SPEED_SHARE: f64 = 0.25;
 /// Greatest difference in turn rate between the two steps of a lone stride, rad/s: 60 °/s; a straight run sways by it.
 const STEP_TURN_RAD_S: f64 = 60.0 * std::f64::consts::PI / 180.0;
 /// Tolerance for equal landmarks, frames: they lie on frames and half-way between.
@@ -114,13 +114,13 @@ fn longest_window(steps: &ClipSteps, reading: usize, [start, end]: [f64; 2]) -> 
     Some(SteadyStrides { reading, strides, deviation })
 }
 
-/// Difference between the two steps of a lone stride, divided by its limit: a body much faster in one of them starts or
-/// stops.
+/// Difference between halves of a lone stride, divided by its limit: a body much faster in one of them starts, stops or
+/// turns back.
 fn unevenness(stride: &Stride) -> f64 {
-    let [first_mps, second_mps] = stride.step_speeds_mps;
+    let [least_mps, greatest_mps] = stride.half_speeds_mps;
     let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;
-    let limit_mps = STEP_SPEED_MPS.max(STEP_SPEED_SHARE * 0.5 * (first_mps + second_mps));
-    ((second_mps - first_mps).abs() / limit_mps).max((second_rad_s - first_rad_s).abs() / STEP_TURN_RAD_S)
+    let limit_mps = HALF_SPEED_MPS.max(HALF_SPEED_SHARE * 0.5 * (least_mps + greatest_mps));
+    ((greatest_mps - least_mps) / limit_mps).max((second_rad_s - first_rad_s).abs() / STEP_TURN_RAD_S)
 }
 
 #[cfg(test)]
@@ -159,6 +159,17 @@ mod tests {
     fn of_equal_lengths_the_steadiest_comes_first() {
         check_windows(&[1.0, 1.05, 1.0, 3.0, 3.0, 3.0], &[[3, 7], [0, 2]]);
         check_windows(&[1.0, 1.0, 1.0, 3.0, 3.05, 3.0], &[[0, 4], [4, 6]]);
+    }
+
+    #[test]
+    fn a_lone_stride_that_stops_within_is_not_steady() {
+        let check = |half_speeds_mps: [f64; 2], is_steady: bool| {
+            let mut found = steps(&[1.0]);
+            found.strides[0].as_mut().unwrap().half_speeds_mps = half_speeds_mps;
+            assert_eq!(steady_windows(&[found], [0.0, 2.0 * STEP_FRAMES]).len(), usize::from(is_steady));
+        };
+        check([0.95, 1.1], true);
+        check([0.1, 0.6], false);
     }
 
     #[test]

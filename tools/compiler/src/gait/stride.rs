@@ -52,8 +52,9 @@ pub struct Stride {
     pub left_share: f64,
     /// Path of the root; its time 0 is the frame of phase 0.
     pub arc: RootArc,
-    /// Speed of the hips in the first and in the second step, m/s.
-    pub step_speeds_mps: [f64; 2],
+    /// Least and greatest speed of the hips over half the period, wherever it begins, m/s: alike in a steady gait, far
+    /// apart where the body stops, or turns back, within the stride.
+    pub half_speeds_mps: [f64; 2],
     /// Rate of change of the facing in the first and in the second step, rad/s.
     pub step_turn_rates_rad_s: [f64; 2],
     /// Root mean square distance of the joints between both ends of the stride, relative to the root, m.
@@ -84,12 +85,12 @@ impl Stride {
             Side::Right => (first.frame, 0.0, half_share),
             Side::Left => (middle.frame - period_frames, 0.5, 1.0 - half_share),
         };
-        let from_start = root_arc(body, first.frame, period_frames);
+        let samples = root_samples(body, first.frame, period_frames);
+        let from_start = RootArc::fit(&samples);
         let arc = from_start.shifted((zero_frame - first.frame) / body.frame_rate_hz);
         let steps = [[first, middle], [middle, last]].map(|[from, to]| {
             (body.root_at(from.frame, 0.0), body.root_at(to.frame, 0.0), body.frame_rate_hz / (to.frame - from.frame))
         });
-        let step_speeds_mps = steps.map(|(from, to, per_s)| from.hips_m.distance(to.hips_m) * per_s);
         let step_turn_rates_rad_s = steps.map(|(from, to, per_s)| (to.facing_rad - from.facing_rad) * per_s);
         let mut stride = Self {
             zero_frame,
@@ -97,7 +98,7 @@ impl Stride {
             period_frames,
             left_share,
             arc,
-            step_speeds_mps,
+            half_speeds_mps: half_speeds_mps(&samples),
             step_turn_rates_rad_s,
             gap_m: 0.0,
         };
@@ -132,15 +133,24 @@ impl Stride {
     }
 }
 
-/// The arc of a stride; its time 0 is the stride's first frame.
-fn root_arc(body: &BodyTrack, first_frame: f64, period_frames: f64) -> RootArc {
-    let samples: Vec<RootSample> = (0..=ROOT_SAMPLES)
+/// The root over a stride; time 0 is the stride's first frame.
+fn root_samples(body: &BodyTrack, first_frame: f64, period_frames: f64) -> Vec<RootSample> {
+    (0..=ROOT_SAMPLES)
         .map(|sample| {
             let frames = period_frames * sample as f64 / ROOT_SAMPLES as f64;
             body.root_at(first_frame + frames, frames / body.frame_rate_hz)
         })
-        .collect();
-    RootArc::fit(&samples)
+        .collect()
+}
+
+/// Least and greatest speed of the hips over half of the samples, m/s.
+fn half_speeds_mps(samples: &[RootSample]) -> [f64; 2] {
+    let half = samples.len() / 2;
+    let speeds_mps = samples
+        .iter()
+        .zip(&samples[half..])
+        .map(|(from, to)| from.hips_m.distance(to.hips_m) / (to.time_s - from.time_s));
+    speeds_mps.fold([f64::INFINITY, 0.0], |[least, greatest], speed| [least.min(speed), greatest.max(speed)])
 }
 
 /// Root mean square distance of the joints between the frames nearest to both ends of a stride, in the root frame, m.
@@ -167,4 +177,28 @@ fn travels_or_turns(stride: &Stride, body: &BodyTrack) -> bool {
 fn pauses(stepping: &[Vec<bool>; 2], from: f64, to: f64) -> bool {
     let both = (from as usize..to as usize).filter(|&frame| stepping[0][frame] && stepping[1][frame]).count();
     both as f64 > DOUBLE_SUPPORT_MAX * (to - from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn halves_of_a_pivot_differ_in_speed() {
+        // 1 m/s ahead and sway; then the same, but back from the middle on.
+        let halves = |turns_back: bool| {
+            let sample = |k: usize| {
+                let time_s = k as f64 / ROOT_SAMPLES as f64;
+                let ahead_m = if turns_back && time_s > 0.5 { 1.0 - time_s } else { time_s };
+                let hips_m = DVec2::new(ahead_m, 0.03 * libm::sin(2.0 * PI * time_s));
+                RootSample { time_s, hips_m, facing_rad: 0.0 }
+            };
+            half_speeds_mps(&(0..=ROOT_SAMPLES).map(sample).collect::<Vec<_>>())
+        };
+        let [least_mps, greatest_mps] = halves(false);
+        assert!(least_mps > 0.99 && greatest_mps < 1.02, "{least_mps} to {greatest_mps} m/s");
+        let [least_mps, greatest_mps] = halves(true);
+        assert!(least_mps < 0.2 && greatest_mps > 0.9, "{least_mps} to {greatest_mps} m/s");
+    }
 }

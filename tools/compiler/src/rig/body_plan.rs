@@ -68,7 +68,12 @@ pub(crate) fn legs_and_arms(
     let Some((_, likeliest)) = legs.first() else {
         return Err(RejectionReason::NoLegs);
     };
-    let likeliest_legs = likeliest.limbs.each_ref().map(|limb| end_names(rig, limb));
+    let no_arms = if likeliest.limbs.iter().all(|limb| is_named_arm(rig, limb)) {
+        RejectionReason::NoLegs
+    } else {
+        let likeliest_legs = Box::new(likeliest.limbs.each_ref().map(|limb| end_names(rig, limb)));
+        RejectionReason::NoArms { likeliest_legs }
+    };
     let arm_parts = [BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand];
     let arms = known_arms.map_or_else(|| limb::pairs(rig, arm_parts), |pair| vec![pair]);
     let mut best: Option<(f64, [LimbPair; 2])> = None;
@@ -79,7 +84,18 @@ pub(crate) fn legs_and_arms(
             best = Some((score, [legs, arms.clone()]));
         }
     }
-    best.map(|(_, limbs)| limbs).ok_or(RejectionReason::NoArms { likeliest_legs: Box::new(likeliest_legs) })
+    best.map(|(_, limbs)| limbs).ok_or(no_arms)
+}
+
+/// Whether names call a limb an arm: a skeleton without legs has no longer pair.
+fn is_named_arm(rig: &SourceRig, limb: &Limb) -> bool {
+    let is_named = |(joint, part): (usize, BodyPart)| rig.hints[joint].parts.contains(&part);
+    limb.joints
+        .into_iter()
+        .zip([BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand])
+        .filter(|at| is_named(*at))
+        .count()
+        >= 2
 }
 
 /// Names of a limb's first and last joint.

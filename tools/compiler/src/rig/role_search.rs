@@ -2,7 +2,7 @@
 //!
 //! Legs and arms are the two pairs of limbs that go together best (`body_plan`). Left and right come from names, unless
 //! toes and knees contradict them; without names, from the direction of the toes. A body is human when its trunk stands
-//! over its legs, unlike a quadruped's, and its path does not lie along its own length.
+//! over its legs, unlike a quadruped's.
 
 use motiondb::body::{JOINT_COUNT, Joint};
 
@@ -60,6 +60,7 @@ fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReaso
         arms.limbs.swap(0, 1);
     }
     let mut roles = assigned_roles(rig, &legs, &arms);
+    roles.moves_lengthwise = body_plan::lengthwise_share(rig, &legs, &arms) > LENGTHWISE_MAX;
     roles.are_names_mirrored = known_legs.is_none() && sides.contradict_names;
     for (role, known) in roles.joints.iter_mut().zip(known) {
         *role = known.or(*role);
@@ -104,9 +105,6 @@ fn check_upright(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> Result<()
     let cosine = body_plan::upright_cosine(rig, legs, arms);
     if cosine < UPRIGHT_COSINE {
         return Err(RejectionReason::NotUpright { trunk_deg: libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees() });
-    }
-    if body_plan::lengthwise_share(rig, legs, arms) > LENGTHWISE_MAX {
-        return Err(RejectionReason::MovesLengthwise);
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The base walk m_sp: the one example that semi-procedural locomotion deforms (`FbCrowd` §5, which leaves the choice
 //! open; definition "m_sp" of `docs/definitions.md`).
 
-use motiondb::velocity_sets::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
+use motiondb::velocity_sets::velocity_hull::goes_straight;
 
 use crate::ground::root_arc::Rates;
 
@@ -22,11 +22,8 @@ pub(crate) struct BaseWalkCandidate {
 /// Index of m_sp among cycles that step: of the upright ones, of these the straight, of these the ones with clean feet,
 /// the one nearest 1.2 m/s. A quality that none of them has does not count.
 pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
-    let is_bent = |rates: &Rates| {
-        rates.turn_rate_rad_s.abs() > f64::from(HOLDING_TURN_MAX_RAD_S)
-            || rates.strafe_mps.abs() > f64::from(TURNING_STRAFE_MAX_MPS)
-    };
-    let faults = |walk: &BaseWalkCandidate| [!walk.is_upright, is_bent(&walk.rates), walk.is_doubtful];
+    let faults =
+        |walk: &BaseWalkCandidate| [!walk.is_upright, !goes_straight(&walk.rates.to_parameters()), walk.is_doubtful];
     let distance_mps = |walk: &BaseWalkCandidate| (walk.rates.speed_mps - BASE_WALK_MPS).abs();
     (0..stepping.len()).min_by(|&a, &b| {
         let (a, b) = (&stepping[a], &stepping[b]);

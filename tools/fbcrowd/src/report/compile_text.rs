@@ -40,11 +40,12 @@ pub(crate) fn text(report: &CompileReport) -> String {
     sections.concat() + "\n" + &last_line(report)
 }
 
-/// Why clips give no example.
+/// Why clips give no example, and what to do next.
 pub(crate) fn reasons(report: &CompileReport) -> String {
     section("rejected", grouped(report.refused.iter().map(reason)))
         + &section("no example", grouped(report.unused.iter().map(reason)))
         + &section("warnings", grouped(diagnostics(report, Severity::Warning)))
+        + &section("next", report.next.clone())
 }
 
 /// Diagnostics of clips by severity: no example, warnings, notes.

@@ -20,6 +20,7 @@ use motiondb_compiler::Rejection;
 
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
+use crate::report::next_steps::with_next_steps;
 use crate::report::plain_text::one_line;
 use crate::terminal::output::{self, PrintError};
 
@@ -133,7 +134,8 @@ impl Failure {
             }
             Self::NoExample { rejected, sources, advice } => {
                 // The reporter would wrap the list.
-                output::say_text(&compile_text::reasons(&CompileReport::without_examples(rejected, &sources)));
+                let report = with_next_steps(CompileReport::without_examples(rejected, &sources));
+                output::say_text(&compile_text::reasons(&report));
                 Self::bad(advice).report()
             }
             Self::ReaderGone => ExitCode::SUCCESS,
