@@ -2,8 +2,9 @@
 //!
 //! The gap of pelvis and joints is spread evenly over the stride. A foot that did the same would slide all through its
 //! stance, by the gap divided by the period. So a foot makes up its own gap during its swing, as a walker does, and
-//! stands in between. Leg inverse kinematics brings it there, no farther from the hip than in the clip, so that no knee
-//! is straighter than it was. Root frame: metres, rotation vectors in radians.
+//! stands in between. Leg inverse kinematics brings it there, no farther from the hip than in the clip, so that no knee is
+//! straighter than it was; at an end of the stride no farther than at either end, so that both ends meet. Root frame:
+//! metres, rotation vectors in radians.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
@@ -11,7 +12,7 @@ use motiondb::motion::PHASE_COUNT;
 
 use crate::ground::leg_ik::place_foot;
 use crate::ground::rotations::rotation_vector;
-use crate::retarget::human_clip::{HumanBody, HumanPose};
+use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 
 /// Least share of the stride that a foot swings; a foot that swings less makes up its gap evenly.
 const SWING_MIN_SHARE: f64 = 0.05;
@@ -32,6 +33,10 @@ struct FootGap {
     ankle_m: DVec3,
     /// Rotation of the foot in the root frame, as a rotation vector, rad.
     rotation: DVec3,
+    /// How much farther than in the clip the leg may reach at the beginning and at the end, m; less in between.
+    reach_gains_m: [f64; 2],
+    /// How far the leg reaches at both ends, m.
+    end_reach_m: f64,
     /// Share of the gap that is made up at each row, −½ at the stride's beginning and ½ at its end; rows begin a cycle
     /// before the stride and end a cycle after it.
     shares: Vec<f64>,
@@ -53,22 +58,38 @@ impl StrideGap {
             FootGap {
                 ankle_m: to.positions_m[foot] - from.positions_m[foot],
                 rotation: rotation_between(from.orientations[foot], to.orientations[foot]),
+                reach_gains_m: [0.0; 2],
+                end_reach_m: 0.0,
                 shares: shares(&rows.iter().map(|contacts| 1.0 - contacts[side]).collect::<Vec<f64>>()),
             }
         });
         let rotations = std::array::from_fn(|joint| rotation_between(first.rotations[joint], last.rotations[joint]));
-        Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations, feet }
+        let mut gap = Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations, feet };
+        let hips = gap.without_joint_gaps(first, 0.0).forward_kinematics(body);
+        for (side, foot) in gap.feet.iter_mut().enumerate() {
+            let leg_m = foot.leg_m(&hips, &from, 0.0, side).length();
+            let reaches_m = [&from, &to].map(|joints| reach_m(joints, side));
+            foot.end_reach_m = leg_m.min(reaches_m[0].max(reaches_m[1]));
+            foot.reach_gains_m = reaches_m.map(|reach_m| (foot.end_reach_m - reach_m).max(0.0));
+        }
+        gap
     }
 
     /// A pose without its part of the gap; `along` is 0 at the beginning of the stride, 1 at its end.
     pub(crate) fn closed_pose(&self, pose: &HumanPose, along: f64, body: &HumanBody) -> HumanPose {
+        let mut closed = self.without_joint_gaps(pose, along);
+        for (side, foot) in self.feet.iter().enumerate() {
+            foot.close_foot(&mut closed, pose, along, body, side);
+        }
+        closed
+    }
+
+    /// A pose whose pelvis and joints are without their part of the gap.
+    fn without_joint_gaps(&self, pose: &HumanPose, along: f64) -> HumanPose {
         let mut closed = pose.clone();
         closed.pelvis_m -= self.pelvis_m * (along - 0.5);
         for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotations) {
             *rotation = DQuat::from_scaled_axis(*gap * (0.5 - along)) * *rotation;
-        }
-        for (side, foot) in self.feet.iter().enumerate() {
-            foot.close_foot(&mut closed, pose, along, body, side);
         }
         closed
     }
@@ -77,16 +98,36 @@ impl StrideGap {
 impl FootGap {
     /// Puts the foot of a closed pose to its position in the clip, less the part of its gap that it has made up.
     fn close_foot(&self, closed: &mut HumanPose, pose: &HumanPose, along: f64, body: &HumanBody, side: usize) {
-        let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
-        let row = ((along + 1.0) * PHASE_COUNT as f64 + 0.5) as usize;
-        let share = self.shares[row.min(self.shares.len() - 1)];
-        let clip = pose.forward_kinematics(body);
-        let hip_m = closed.forward_kinematics(body).positions_m[thigh];
-        let leg_m = clip.positions_m[foot] - self.ankle_m * share - hip_m;
-        let reach_m = clip.positions_m[foot].distance(clip.positions_m[thigh]);
-        let orientation = DQuat::from_scaled_axis(self.rotation * -share) * clip.orientations[foot];
-        place_foot(closed, body, side, hip_m + leg_m.clamp_length_max(reach_m), orientation);
+        let (clip, hips) = (pose.forward_kinematics(body), closed.forward_kinematics(body));
+        let [at_first_m, at_last_m] = self.reach_gains_m;
+        let gain_m = at_first_m + (at_last_m - at_first_m) * along.clamp(0.0, 1.0);
+        // No knee gets straighter than in the clip or at both ends.
+        let own_m = reach_m(&clip, side);
+        let reach_m = (own_m + gain_m).min(own_m.max(self.end_reach_m));
+        let leg_m = self.leg_m(&hips, &clip, along, side).clamp_length_max(reach_m);
+        let ankle_m = hips.positions_m[Joint::THIGHS[side].index()] + leg_m;
+        let orientation = clip.orientations[Joint::FEET[side].index()];
+        let orientation = DQuat::from_scaled_axis(self.rotation * -self.share(along)) * orientation;
+        place_foot(closed, body, side, ankle_m, orientation);
     }
+
+    /// Share of the gap that is made up.
+    fn share(&self, along: f64) -> f64 {
+        let row = ((along + 1.0) * PHASE_COUNT as f64 + 0.5) as usize;
+        self.shares[row.min(self.shares.len() - 1)]
+    }
+
+    /// From the hip of a closed pose to where the ankle belongs, however far.
+    fn leg_m(&self, hips: &HumanJoints, clip: &HumanJoints, along: f64, side: usize) -> DVec3 {
+        let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
+        clip.positions_m[foot] - self.ankle_m * self.share(along) - hips.positions_m[thigh]
+    }
+}
+
+/// Distance of an ankle from its hip, m.
+fn reach_m(joints: &HumanJoints, side: usize) -> f64 {
+    let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(|joint| joints.positions_m[joint.index()]);
+    thigh.distance(foot)
 }
 
 /// Position of a row along the stride; rows begin a cycle before it.
@@ -116,6 +157,29 @@ fn rotation_between(from: DQuat, to: DQuat) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic;
+
+    /// Both feet stand still while the hips move forward, so that the legs end straighter than they begin.
+    #[test]
+    fn legs_of_different_reach_close() {
+        let body = synthetic::body(1.0);
+        let mut first = synthetic::idle("idle", 1.0).frames[0].clone();
+        first.pelvis_m.z -= 0.04;
+        let mut last = first.clone();
+        last.pelvis_m += DVec3::new(0.12, 0.0, 0.03);
+        let ankles = first.forward_kinematics(&body);
+        for side in [0, 1] {
+            let foot = Joint::FEET[side].index();
+            place_foot(&mut last, &body, side, ankles.positions_m[foot], ankles.orientations[foot]);
+        }
+        let gap = StrideGap::between(&first, &last, &body, |_| [1.0; 2]);
+        let [begins, ends] =
+            [(&first, 0.0), (&last, 1.0)].map(|(pose, along)| gap.closed_pose(pose, along, &body).rotations);
+        for joint in 0..JOINT_COUNT {
+            let seam_rad = begins[joint].angle_between(ends[joint]);
+            assert!(seam_rad < 1e-6, "joint {joint} jumps by {seam_rad} rad");
+        }
+    }
 
     #[test]
     fn feet_make_up_their_gap_only_as_they_swing() {
