@@ -235,6 +235,11 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (Unfit::TPose, "the body stands in a T-pose; use a clip of a body that stands at ease"),
         (
+            Unfit::StridesUneven { speeds_mps: [0.4, 0.9], turn_rates_rad_s: [0.0, FRAC_PI_2] },
+            "no steady stride was found: in the steadiest one the speed varies from 0.40 to 0.90 m/s, and its steps turn \
+             by 0 and 90 °/s; use a clip of a steady gait",
+        ),
+        (
             Unfit::MovesLengthwise,
             "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a clip \
              of walking or standing",
@@ -315,6 +320,7 @@ const NUMBERED: [&[&str]; 3] = [
         "not_upright",
         "t_pose",
         "moves_lengthwise",
+        "strides_uneven",
     ],
 ];
 

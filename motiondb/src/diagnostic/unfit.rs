@@ -31,7 +31,7 @@ pub enum Unfit {
     NoStep,
     /// Feet step, but not one after the other.
     NoWholeStride,
-    /// There are strides, but none is like its neighbours.
+    /// There are strides, but none is steady, in databases of earlier compilers; see [`Unfit::StridesUneven`].
     NoSteadyStride,
     /// The pelvis leaves the reach of the legs.
     PelvisOutOfReach,
@@ -86,6 +86,13 @@ pub enum Unfit {
     TPose,
     /// The body moves along the line from its feet to its shoulders.
     MovesLengthwise,
+    /// There are strides, but the body starts, stops or turns in all of them.
+    StridesUneven {
+        /// Least and greatest speed over half of the steadiest stride, m/s.
+        speeds_mps: [f32; 2],
+        /// Turn rates of its two steps, rad/s.
+        turn_rates_rad_s: [f32; 2],
+    },
 }
 
 impl Unfit {
@@ -107,6 +114,7 @@ impl Unfit {
             Self::NotUpright { .. } => "not_upright",
             Self::TPose => "t_pose",
             Self::MovesLengthwise => "moves_lengthwise",
+            Self::StridesUneven { .. } => "strides_uneven",
         }
     }
 }
@@ -171,6 +179,15 @@ impl fmt::Display for Unfit {
                 out,
                 "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
             ),
+            Self::StridesUneven { speeds_mps: [least_mps, greatest_mps], turn_rates_rad_s } => {
+                let [first_deg_s, second_deg_s] = turn_rates_rad_s.map(f32::to_degrees);
+                write!(
+                    out,
+                    "no steady stride was found: in the steadiest one the speed varies from {least_mps:.2} to \
+                     {greatest_mps:.2} m/s, and its steps turn by {first_deg_s:.0} and {second_deg_s:.0} °/s; use a clip of \
+                     a steady gait"
+                )
+            }
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \
                  clip of walking or standing",

@@ -116,7 +116,7 @@ fn longest_window(steps: &ClipSteps, reading: usize, [start, end]: [f64; 2]) -> 
 
 /// Difference between halves of a lone stride, divided by its limit: a body much faster in one of them starts, stops or
 /// turns back.
-fn unevenness(stride: &Stride) -> f64 {
+pub(crate) fn unevenness(stride: &Stride) -> f64 {
     let [least_mps, greatest_mps] = stride.half_speeds_mps;
     let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;
     let limit_mps = HALF_SPEED_MPS.max(HALF_SPEED_SHARE * 0.5 * (least_mps + greatest_mps));

@@ -17,7 +17,7 @@ use crate::gait::body_track::BodyTrack;
 use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
 use crate::gait::standing;
-use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows};
+use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows, unevenness};
 use crate::gait::stride::{Landmark, Stride, valid_stride};
 use crate::gait::stride_alignment::aligned_strides;
 use crate::ground::grounded_clip::GroundedClip;
@@ -85,7 +85,8 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
     });
     let windows = gait_windows(&planted, &steps, &track, clip.loop_frames());
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
-    let lost_steps = lost_steps(&windows, &steps[0]);
+    let frames = searched_frames(track.frame_count(), clip.loop_frames());
+    let lost_steps = lost_steps(&windows, &steps[0], &frames);
     GaitAnalysis { stances, windows, lost_steps }
 }
 
@@ -178,8 +179,7 @@ fn gait_windows(
     if let Some(window) = loop_frames.and_then(|round| whole_round(steps, round, track)) {
         return Ok(vec![window]);
     }
-    // A loop that is not steady is a capture that ends as it began: its middle copy has all of it.
-    let frames = loop_frames.map_or(frames, |round| round..2 * round + 1);
+    let frames = searched_frames(frames.len(), loop_frames);
     let before = loop_frames.unwrap_or(0);
     let mut windows: Vec<GaitWindow> = steady_windows(steps, [frames.start as f64, (frames.end - 1) as f64])
         .into_iter()
@@ -188,7 +188,13 @@ fn gait_windows(
     windows.extend(planted.iter().enumerate().find_map(|(reading, planted)| {
         Some(GaitWindow::standing(standing::longest_rest(planted, track, frames.clone())?, reading, before))
     }));
-    if windows.is_empty() { Err(why_unsteady(&steps[0])) } else { Ok(windows) }
+    if windows.is_empty() { Err(why_unsteady(&steps[0], &frames)) } else { Ok(windows) }
+}
+
+/// The frames of a clip in which windows are searched. A loop that is not steady is a capture that ends as it began: its
+/// middle copy has all of it.
+fn searched_frames(frame_count: usize, loop_frames: Option<usize>) -> Range<usize> {
+    loop_frames.map_or(0..frame_count, |round| round..2 * round + 1)
 }
 
 impl GaitWindow {
@@ -224,20 +230,26 @@ fn clip_steps(stepping: &[Vec<bool>; 2], track: &BodyTrack) -> ClipSteps {
 }
 
 /// Why a clip whose windows all stand gives no window of its steps; `None` where it makes hardly any.
-fn lost_steps(windows: &Result<Vec<GaitWindow>, Unfit>, steps: &ClipSteps) -> Option<Unfit> {
+fn lost_steps(windows: &Result<Vec<GaitWindow>, Unfit>, steps: &ClipSteps, frames: &Range<usize>) -> Option<Unfit> {
     let is_rest = |window: &GaitWindow| matches!(window.gait, WindowGait::Stands(_));
     let only_rests = windows.as_ref().is_ok_and(|windows| windows.iter().all(is_rest));
-    (only_rests && steps.landmarks.len() >= LOST_STEPS_MIN).then(|| why_unsteady(steps))
+    (only_rests && steps.landmarks.len() >= LOST_STEPS_MIN).then(|| why_unsteady(steps, frames))
 }
 
-fn why_unsteady(steps: &ClipSteps) -> Unfit {
+/// Why no window of strides was found in these frames.
+fn why_unsteady(steps: &ClipSteps, frames: &Range<usize>) -> Unfit {
     if steps.landmarks.is_empty() {
-        Unfit::NoStep
-    } else if steps.strides.iter().all(Option::is_none) {
-        Unfit::NoWholeStride
-    } else {
-        Unfit::NoSteadyStride
+        return Unfit::NoStep;
     }
+    let is_within =
+        |stride: &&Stride| stride.first_frame() >= frames.start as f64 && stride.last_frame() <= frames.end as f64;
+    let strides = steps.strides.iter().flatten().filter(is_within);
+    strides.min_by(|a, b| unevenness(a).total_cmp(&unevenness(b))).map_or(Unfit::NoWholeStride, |steadiest| {
+        Unfit::StridesUneven {
+            speeds_mps: steadiest.half_speeds_mps.map(|speed| speed as f32),
+            turn_rates_rad_s: steadiest.step_turn_rates_rad_s.map(|rate| rate as f32),
+        }
+    })
 }
 
 /// Middles of all contacts, in order of time.
@@ -339,6 +351,16 @@ mod tests {
         };
         assert_eq!(lost(1.4), Some(Unfit::NoWholeStride));
         assert_eq!(lost(4.0), None);
+    }
+
+    #[test]
+    fn the_steadiest_of_uneven_strides_is_reported() {
+        let landmark = |side, frame| Landmark { side, frame };
+        let stride = |half_speeds_mps| Some(Stride { half_speeds_mps, ..Stride::default() });
+        let steps = |strides| ClipSteps { landmarks: vec![landmark(Side::Left, 1.0)], strides };
+        let uneven = why_unsteady(&steps(vec![stride([0.1, 1.0]), None, stride([0.4, 0.9])]), &(0..9));
+        assert_eq!(uneven, Unfit::StridesUneven { speeds_mps: [0.4, 0.9], turn_rates_rad_s: [0.0; 2] });
+        assert_eq!(why_unsteady(&steps(vec![None]), &(0..9)), Unfit::NoWholeStride);
     }
 
     #[test]
