@@ -79,7 +79,11 @@ pub fn render_camera_sequence(
     };
     let mut paths = Vec::with_capacity(numbers.len());
     for numbers in numbers.chunks(at_once) {
-        paths.extend(numbers.par_iter().map(render).collect::<Result<Vec<PathBuf>, RenderError>>()?);
+        // In order: the error is that of the first frame that fails, whichever thread is faster.
+        let rendered: Vec<Result<PathBuf, RenderError>> = numbers.par_iter().map(render).collect();
+        for path in rendered {
+            paths.push(path?);
+        }
     }
     Ok(paths)
 }
@@ -100,9 +104,9 @@ pub fn draw_camera_sequence<E: From<RenderError>>(
     let mut done = 0;
     for chunk in numbers.chunks(at_once) {
         let draw = |number: &u32| -> Result<RgbPicture, RenderError> { rgb_picture(&mut &take.picture(*number)?) };
-        let pictures = chunk.par_iter().map(draw).collect::<Result<Vec<_>, _>>()?;
+        let pictures: Vec<Result<RgbPicture, RenderError>> = chunk.par_iter().map(draw).collect();
         for picture in pictures {
-            show(picture)?;
+            show(picture?)?;
             done += 1;
             observer(done, numbers.len());
         }
