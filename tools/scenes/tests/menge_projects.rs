@@ -256,6 +256,16 @@ fn all_projects_of_others_are_converted() {
     }
 }
 
+#[test]
+fn priorities_of_profiles_are_noted() {
+    let notes = |priority: &str| {
+        let (from, to) = ("obstacleSet=\"1\"", format!("obstacleSet=\"1\" priority=\"{priority}\""));
+        Project::with("fair/scene.xml", from, &to).converted().1.join("\n")
+    };
+    assert!(!notes("0.0").contains("priorities"));
+    check_contains(&notes("0.5"), &["6: priorities are not used"]);
+}
+
 /// The scenario of the made-up project with actions in the state `Look`, where agents stand, and its notes.
 fn with_actions_in_look(actions: &str) -> (String, String) {
     let from = "<State name=\"Look\" final=\"0\">";

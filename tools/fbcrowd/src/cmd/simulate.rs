@@ -12,8 +12,8 @@ use fbcrowd_jobs::{JobError, JobEvent};
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::files::database_file;
-use motiondb_compiler::Outside;
 
+use crate::cmd::outside_arg::OutsideArg;
 use crate::report::crowd::timings_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -37,12 +37,14 @@ pub(crate) struct Args {
     /// Write the durations of the stages as JSON; docs/json.md describes it.
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    outside: OutsideArg,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let (mut scenario, motion) = scenario::read(&args.scenario)?;
     let camera_files = camera_file::files(&scenario, &args.scenario);
-    camera_file::resolve(&mut scenario, &args.scenario, Outside::Refused)?;
+    camera_file::resolve(&mut scenario, &args.scenario, args.outside.into())?;
     let database = match &args.database {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
@@ -52,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
     let progress = ProgressDisplay::default();
     let observer = |event: JobEvent<'_>| progress.observe(event);
-    let characters = ScenarioCharacters::load(&args.scenario, &scenario, Outside::Refused, &observer)?;
+    let characters = ScenarioCharacters::load(&args.scenario, &scenario, args.outside.into(), &observer)?;
     let agent_files = scenario::agent_files(&args.scenario)?;
     let inputs =
         [vec![args.scenario.clone(), database.clone()], agent_files, camera_files, characters.files.clone()].concat();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::SceneError;
-use crate::menge::profiles::MengeProfile;
+use crate::menge::profiles::{MengeProfile, PRIORITIES_UNUSED};
 use crate::menge::transitions::States;
 use crate::menge::xml::Element;
 use crate::scene::{DrawnNumber, Notes, Scene, SceneMovement, SceneSettings, SceneState, Shape, round_to_mm};
@@ -91,8 +91,7 @@ fn read_action(
                 "pref_speed" => set_speed(kind, drawn, profiles, settings, action, notes),
                 "r" => set_radius(kind, drawn, profiles, settings, action, notes),
                 "priority" => {
-                    let what = "priorities are not used; they act in Menge's model \"pedvo\" alone";
-                    notes.add(shown, line, what, false);
+                    notes.add(shown, line, PRIORITIES_UNUSED, false);
                     return Ok(false);
                 }
                 property => {

@@ -147,18 +147,26 @@ impl Profiles {
 /// Speed, radius and obstacle mask that a profile states itself.
 type OwnNumbers = (Option<DrawnNumber>, Option<DrawnNumber>, Option<u64>);
 
+/// Note on priorities, of profiles and of states.
+pub(crate) const PRIORITIES_UNUSED: &str = "priorities are not used; they act in Menge's model \"pedvo\" alone";
+
 fn own_numbers(element: &Element<'_>, scene: &mut Scene) -> Result<OwnNumbers, SceneError> {
     let (mut speed_mps, mut radius_m, mut mask) = (None, None, None);
     for common in element.named("Common") {
         speed_mps = common.number("pref_speed")?.map(DrawnNumber::Constant).or(speed_mps);
         radius_m = common.number("r")?.map(DrawnNumber::Constant).or(radius_m);
         mask = common.count("obstacleSet")?.or(mask);
+        let mut priority = common.number("priority")?.map(DrawnNumber::Constant);
         for property in common.named("Property") {
             match property.required("name")? {
                 "pref_speed" => speed_mps = property.drawn("")?.or(speed_mps),
                 "r" => radius_m = property.drawn("")?.or(radius_m),
+                "priority" => priority = property.drawn("")?.or(priority),
                 _ => {}
             }
+        }
+        if priority.is_some_and(|priority| priority.constant() != Some(0.0)) {
+            scene.notes.add(&common.file.shown, common.line(), PRIORITIES_UNUSED, false);
         }
     }
     for modifier in element.named("VelModifier") {
