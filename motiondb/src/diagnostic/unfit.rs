@@ -31,7 +31,8 @@ pub enum Unfit {
     NoStep,
     /// Feet step, but not one after the other.
     NoWholeStride,
-    /// There are strides, but none is steady, in databases of earlier compilers; see [`Unfit::StridesUneven`].
+    /// There are strides, but none is steady. Databases of earlier compilers hold it; [`Unfit::StridesUneven`] has taken
+    /// its place.
     NoSteadyStride,
     /// The pelvis leaves the reach of the legs.
     PelvisOutOfReach,
@@ -88,9 +89,9 @@ pub enum Unfit {
     MovesLengthwise,
     /// There are strides, but the body starts, stops or turns in all of them.
     StridesUneven {
-        /// Least and greatest speed over half of the steadiest stride, m/s.
+        /// Of the steadiest stride: least and greatest speed over half of its period, m/s.
         speeds_mps: [f32; 2],
-        /// Turn rates of its two steps, rad/s.
+        /// Of the steadiest stride: turn rates of its two steps, rad/s.
         turn_rates_rad_s: [f32; 2],
     },
 }
@@ -166,35 +167,43 @@ impl fmt::Display for Unfit {
                 parameter_text(*root),
                 parameter_text(*feet)
             ),
-            Self::SameTake { other, mirrored, frame_times_differ: false } => {
-                write!(out, "the same take as {other}{}, which gives the example", and_mirrored(*mirrored))
+            Self::SameTake { other, mirrored, frame_times_differ } => {
+                same_take(out, other, *mirrored, *frame_times_differ)
             }
-            Self::SameTake { other, mirrored, frame_times_differ: true } => write!(
-                out,
-                "the same take as {other}{}, which gives the example, but at another frame time; state the right \
-                 `frame_rate_hz` in a manifest.toml",
-                and_mirrored(*mirrored)
-            ),
             Self::NotUpright { posture } => write!(
                 out,
                 "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
             ),
-            Self::StridesUneven { speeds_mps: [least_mps, greatest_mps], turn_rates_rad_s } => {
-                let [first_deg_s, second_deg_s] = turn_rates_rad_s.map(f32::to_degrees);
-                write!(
-                    out,
-                    "no steady stride was found: in the steadiest one the speed varies from {least_mps:.2} to \
-                     {greatest_mps:.2} m/s, and its steps turn by {first_deg_s:.0} and {second_deg_s:.0} °/s; use a clip of \
-                     a steady gait"
-                )
-            }
+            Self::TPose => out.write_str("the body stands in a T-pose; use a clip of a body that stands at ease"),
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \
                  clip of walking or standing",
             ),
-            Self::TPose => out.write_str("the body stands in a T-pose; use a clip of a body that stands at ease"),
+            Self::StridesUneven { speeds_mps, turn_rates_rad_s } => {
+                strides_uneven(out, *speeds_mps, turn_rates_rad_s.map(f32::to_degrees))
+            }
         }
     }
+}
+
+fn same_take(out: &mut fmt::Formatter<'_>, other: &str, mirrored: bool, frame_times_differ: bool) -> fmt::Result {
+    write!(out, "the same take as {other}{}, which gives the example", and_mirrored(mirrored))?;
+    if frame_times_differ {
+        out.write_str(", but at another frame time; state the right `frame_rate_hz` in a manifest.toml")?;
+    }
+    Ok(())
+}
+
+fn strides_uneven(
+    out: &mut fmt::Formatter<'_>,
+    [least_mps, greatest_mps]: [f32; 2],
+    [first_deg_s, second_deg_s]: [f32; 2],
+) -> fmt::Result {
+    write!(
+        out,
+        "no steady stride was found: in the steadiest one the speed varies from {least_mps:.2} to {greatest_mps:.2} m/s, \
+         and its steps turn by {first_deg_s:.0} and {second_deg_s:.0} °/s; use a clip of a steady gait"
+    )
 }
 
 fn side_name(side: Side) -> &'static str {

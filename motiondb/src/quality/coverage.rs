@@ -82,7 +82,7 @@ pub fn coverage(db: &MotionDb) -> Vec<CoverageGap> {
     gaps_by_kind.concat()
 }
 
-/// Whether an example walks forward, more than steps aside or in place do: without one, bodies reach no goal.
+/// Whether an example walks forward by more than side-steps and turns in place drift: without one, bodies reach no goal.
 pub fn walks_ahead(db: &MotionDb) -> bool {
     db.examples.iter().any(|example| example.key_times_s.is_some() && example.parameters.speed_mps >= MOVES_MPS)
 }

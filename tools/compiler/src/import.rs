@@ -14,10 +14,11 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
+use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
+use crate::checks::lengthwise_path::lengthwise_path;
 use crate::checks::{level_ground, plausibility};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::input::clip_files::ClipFormat;
@@ -203,7 +204,7 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let parameters = parameters_of_trimmed(&mut clip, &roles, settings);
     let mut warnings = vec![plausibility::size_warning(&clip, &roles)];
     // A body that does not stand along the up axis has no feet on the ground.
-    let unfit = contradicted_up.clone().or(roles.moves_lengthwise.then_some(Unfit::MovesLengthwise)).or_else(|| {
+    let unfit = contradicted_up.clone().or_else(|| lengthwise_path(&clip, &roles)).or_else(|| {
         warnings.push(level_ground::warning(&clip, &roles, &parameters));
         match plausibility::doubtful_gait(&clip, &roles, &parameters)? {
             Diagnostic::NoExample(unfit) => Some(unfit),

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Note, Posture, Unfit, Warning};
+use motiondb::diagnostic::{Diagnostic, Note, Posture, Unfit};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::{CompileError, HumanClip, Options, compile, import_bytes};
 use zoo::body::{Performance, Pose, part};
@@ -150,22 +150,6 @@ fn a_body_that_climbs_is_no_example_and_not_refused() {
     let climb = changed(&walk, |pose, _, cycles| pose.hips_m = start + DVec3::Y * 0.5 * cycles);
     let unfit = imported(&climb).unfit;
     assert_eq!(unfit, Some(Unfit::MovesLengthwise));
-}
-
-/// The walk in so many times its own time.
-fn slowed(slowness: f64) -> HumanClip {
-    let walk = walk();
-    imported(&Performance { frame_rate_hz: walk.frame_rate_hz / slowness, ..walk })
-}
-
-#[test]
-fn slow_motion_is_doubtful() {
-    let is_doubtful = |clip: &HumanClip| {
-        let is_warning = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::FrameTimeDoubtful { .. }));
-        clip.source.diagnostics.iter().any(is_warning)
-    };
-    assert!(is_doubtful(&slowed(2.0)));
-    assert!(!is_doubtful(&slowed(1.0)));
 }
 
 #[track_caller]

@@ -1,4 +1,5 @@
-//! Claims about size: bodies of children and giants keep their unit, and a doubtful unit is reported.
+//! Claims about size and time: bodies of children and giants keep their unit, and a doubtful unit or frame time is
+//! reported.
 
 mod zoo {
     #![allow(dead_code, reason = "shared with the zoo's own tests")]
@@ -24,11 +25,15 @@ use zoo::rig::{self, Rest};
 
 /// The bundled walk by a performer with legs of this length, as a file in this unit.
 fn walk(leg_m: f64, units_per_m: f64) -> HumanClip {
-    let body = Performance::read("walk_110");
+    performed(&Performance::read("walk_110"), leg_m, units_per_m)
+}
+
+/// A motion by a performer with legs of this length, as a file in this unit.
+fn performed(body: &Performance, leg_m: f64, units_per_m: f64) -> HumanClip {
     let adult_m: f64 = ["LeftLeg", "LeftFoot"].map(|name| body.offsets_m[part(name)].length()).into_iter().sum();
-    let rig = rig::build(&body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
+    let rig = rig::build(body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
     let file = File::plain(units_per_m, leg_m / adult_m);
-    let text = file::write(&body, &rig, &file);
+    let text = file::write(body, &rig, &file);
     import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
 }
 
@@ -63,6 +68,18 @@ fn adults_keep_their_unit() {
         check(0.84, units_per_m, false);
     }
     check(0.90, 1.0 / 0.0254, true);
+}
+
+#[test]
+fn slow_motion_is_doubtful() {
+    let is_doubtful = |slowness: f64| {
+        let walk = Performance::read("walk_110");
+        let slowed = Performance { frame_rate_hz: walk.frame_rate_hz / slowness, ..walk };
+        let is_warning = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::FrameTimeDoubtful { .. }));
+        performed(&slowed, 0.84, 100.0).source.diagnostics.iter().any(is_warning)
+    };
+    assert!(is_doubtful(2.0));
+    assert!(!is_doubtful(1.0));
 }
 
 #[test]

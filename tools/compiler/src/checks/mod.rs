@@ -4,7 +4,9 @@
 //! Enters: a `SourceClip` with roles and whole-clip parameters, or a `HumanBody`. Leaves: warnings, verdicts and
 //! reasons of rejection, all typed.
 //!
-//! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet.
+//! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
+//! `lengthwise_path` whether it moves along its own length.
 
+pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;
 pub(crate) mod plausibility;

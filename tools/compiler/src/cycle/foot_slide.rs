@@ -41,8 +41,8 @@ pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
 }
 
 /// Why the feet of a cycle make it unfit, if they do: no stance, or contacts that contradict its landmarks or its root.
-/// The body is `growth` times as large as the performer, whom the verdict concerns: other clips of a set do not change
-/// it.
+/// The body is `growth` times as large as the performer. Slide is judged at the performer's size, so that the verdict
+/// does not depend on the other clips of the set.
 pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide: &FootSlide) -> Option<Unfit> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
     let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);

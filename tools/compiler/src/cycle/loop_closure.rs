@@ -19,12 +19,18 @@ const SWING_MIN_SHARE: f64 = 0.05;
 
 /// Difference of a stride's last pose from its first.
 pub(crate) struct StrideGap {
+    /// Gap of pelvis and joints.
+    pose: PoseGap,
+    /// Gaps of both feet.
+    feet: [FootGap; 2],
+}
+
+/// Difference of a stride's last pose from its first, in pelvis and joints.
+struct PoseGap {
     /// Displacement of the pelvis, m.
     pelvis_m: DVec3,
     /// Rotation of each joint against its parent, as a rotation vector, rad.
     rotations: [DVec3; JOINT_COUNT],
-    /// Gaps of both feet.
-    feet: [FootGap; 2],
 }
 
 /// Difference of one foot at the end of a stride from its beginning.
@@ -33,7 +39,8 @@ struct FootGap {
     ankle_m: DVec3,
     /// Rotation of the foot in the root frame, as a rotation vector, rad.
     rotation: DVec3,
-    /// How much farther than in the clip the leg may reach at the beginning and at the end, m; less in between.
+    /// How much farther than in the clip the leg may reach at the beginning and at the end, m. In between the gain
+    /// changes evenly from one to the other.
     reach_gains_m: [f64; 2],
     /// How far the leg reaches at both ends, m.
     end_reach_m: f64,
@@ -53,39 +60,39 @@ impl StrideGap {
     ) -> Self {
         let (from, to) = (first.forward_kinematics(body), last.forward_kinematics(body));
         let rows: Vec<[f64; 2]> = (0..=3 * PHASE_COUNT).map(|row| contacts(along(row))).collect();
+        let rotations = std::array::from_fn(|joint| rotation_between(first.rotations[joint], last.rotations[joint]));
+        let pose = PoseGap { pelvis_m: last.pelvis_m - first.pelvis_m, rotations };
+        let closed = pose.closed(first, 0.0).forward_kinematics(body);
         let feet = [0, 1].map(|side| {
-            let foot = Joint::FEET[side].index();
+            let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
+            let ankle_m = to.positions_m[foot] - from.positions_m[foot];
+            let leg_m = from.positions_m[foot] + 0.5 * ankle_m - closed.positions_m[thigh];
+            let reaches_m = [&from, &to].map(|joints| reach_m(joints, side));
+            let end_reach_m = leg_m.length().min(reaches_m[0].max(reaches_m[1]));
             FootGap {
-                ankle_m: to.positions_m[foot] - from.positions_m[foot],
+                ankle_m,
                 rotation: rotation_between(from.orientations[foot], to.orientations[foot]),
-                reach_gains_m: [0.0; 2],
-                end_reach_m: 0.0,
+                reach_gains_m: reaches_m.map(|reach_m| (end_reach_m - reach_m).max(0.0)),
+                end_reach_m,
                 shares: shares(&rows.iter().map(|contacts| 1.0 - contacts[side]).collect::<Vec<f64>>()),
             }
         });
-        let rotations = std::array::from_fn(|joint| rotation_between(first.rotations[joint], last.rotations[joint]));
-        let mut gap = Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations, feet };
-        let hips = gap.without_joint_gaps(first, 0.0).forward_kinematics(body);
-        for (side, foot) in gap.feet.iter_mut().enumerate() {
-            let leg_m = foot.leg_m(&hips, &from, 0.0, side).length();
-            let reaches_m = [&from, &to].map(|joints| reach_m(joints, side));
-            foot.end_reach_m = leg_m.min(reaches_m[0].max(reaches_m[1]));
-            foot.reach_gains_m = reaches_m.map(|reach_m| (foot.end_reach_m - reach_m).max(0.0));
-        }
-        gap
+        Self { pose, feet }
     }
 
     /// A pose without its part of the gap; `along` is 0 at the beginning of the stride, 1 at its end.
     pub(crate) fn closed_pose(&self, pose: &HumanPose, along: f64, body: &HumanBody) -> HumanPose {
-        let mut closed = self.without_joint_gaps(pose, along);
+        let mut closed = self.pose.closed(pose, along);
         for (side, foot) in self.feet.iter().enumerate() {
             foot.close_foot(&mut closed, pose, along, body, side);
         }
         closed
     }
+}
 
+impl PoseGap {
     /// A pose whose pelvis and joints are without their part of the gap.
-    fn without_joint_gaps(&self, pose: &HumanPose, along: f64) -> HumanPose {
+    fn closed(&self, pose: &HumanPose, along: f64) -> HumanPose {
         let mut closed = pose.clone();
         closed.pelvis_m -= self.pelvis_m * (along - 0.5);
         for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotations) {
@@ -98,29 +105,23 @@ impl StrideGap {
 impl FootGap {
     /// Puts the foot of a closed pose to its position in the clip, less the part of its gap that it has made up.
     fn close_foot(&self, closed: &mut HumanPose, pose: &HumanPose, along: f64, body: &HumanBody, side: usize) {
-        let (clip, hips) = (pose.forward_kinematics(body), closed.forward_kinematics(body));
+        let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
+        let row = ((along + 1.0) * PHASE_COUNT as f64 + 0.5) as usize;
+        let share = self.shares[row.min(self.shares.len() - 1)];
+        let clip = pose.forward_kinematics(body);
+        let hip_m = closed.forward_kinematics(body).positions_m[thigh];
+        let leg_m = clip.positions_m[foot] - self.ankle_m * share - hip_m;
+        let reach_m = self.greatest_reach_m(reach_m(&clip, side), along);
+        let orientation = DQuat::from_scaled_axis(self.rotation * -share) * clip.orientations[foot];
+        place_foot(closed, body, side, hip_m + leg_m.clamp_length_max(reach_m), orientation);
+    }
+
+    /// How far the leg may reach that reaches so far in the clip, m: its knee gets no straighter than in the clip, or
+    /// than at the ends.
+    fn greatest_reach_m(&self, own_m: f64, along: f64) -> f64 {
         let [at_first_m, at_last_m] = self.reach_gains_m;
         let gain_m = at_first_m + (at_last_m - at_first_m) * along.clamp(0.0, 1.0);
-        // No knee gets straighter than in the clip or at both ends.
-        let own_m = reach_m(&clip, side);
-        let reach_m = (own_m + gain_m).min(own_m.max(self.end_reach_m));
-        let leg_m = self.leg_m(&hips, &clip, along, side).clamp_length_max(reach_m);
-        let ankle_m = hips.positions_m[Joint::THIGHS[side].index()] + leg_m;
-        let orientation = clip.orientations[Joint::FEET[side].index()];
-        let orientation = DQuat::from_scaled_axis(self.rotation * -self.share(along)) * orientation;
-        place_foot(closed, body, side, ankle_m, orientation);
-    }
-
-    /// Share of the gap that is made up.
-    fn share(&self, along: f64) -> f64 {
-        let row = ((along + 1.0) * PHASE_COUNT as f64 + 0.5) as usize;
-        self.shares[row.min(self.shares.len() - 1)]
-    }
-
-    /// From the hip of a closed pose to where the ankle belongs, however far.
-    fn leg_m(&self, hips: &HumanJoints, clip: &HumanJoints, along: f64, side: usize) -> DVec3 {
-        let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
-        clip.positions_m[foot] - self.ankle_m * self.share(along) - hips.positions_m[thigh]
+        (own_m + gain_m).min(own_m.max(self.end_reach_m))
     }
 }
 

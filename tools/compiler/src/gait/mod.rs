@@ -6,7 +6,7 @@
 //!
 //! Read `performer_gait` (the chapter's entry) and `windows` (its steps), then the steps one by one: `contacts`,
 //! `foot_stance` with `contact_ends`, `stride` on a `body_track`, `steady_strides` with `stride_spread`,
-//! `stride_alignment`, `standing`.
+//! `stride_alignment`, `standing`, `unsteady_strides`.
 
 pub(crate) mod body_track;
 pub(crate) mod contact_ends;
@@ -18,6 +18,7 @@ pub(crate) mod steady_strides;
 pub(crate) mod stride;
 pub(crate) mod stride_alignment;
 pub(crate) mod stride_spread;
+pub(crate) mod unsteady_strides;
 pub(crate) mod windows;
 
 pub use foot_stance::FootStance;

@@ -17,9 +17,10 @@ use crate::gait::body_track::BodyTrack;
 use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
 use crate::gait::standing;
-use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows, unevenness};
+use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows};
 use crate::gait::stride::{Landmark, Stride, valid_stride};
 use crate::gait::stride_alignment::aligned_strides;
+use crate::gait::unsteady_strides::why_unsteady;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::posture::LowPart;
@@ -236,22 +237,6 @@ fn lost_steps(windows: &Result<Vec<GaitWindow>, Unfit>, steps: &ClipSteps, frame
     (only_rests && steps.landmarks.len() >= LOST_STEPS_MIN).then(|| why_unsteady(steps, frames))
 }
 
-/// Why no window of strides was found in these frames.
-fn why_unsteady(steps: &ClipSteps, frames: &Range<usize>) -> Unfit {
-    if steps.landmarks.is_empty() {
-        return Unfit::NoStep;
-    }
-    let is_within =
-        |stride: &&Stride| stride.first_frame() >= frames.start as f64 && stride.last_frame() <= frames.end as f64;
-    let strides = steps.strides.iter().flatten().filter(is_within);
-    strides.min_by(|a, b| unevenness(a).total_cmp(&unevenness(b))).map_or(Unfit::NoWholeStride, |steadiest| {
-        Unfit::StridesUneven {
-            speeds_mps: steadiest.half_speeds_mps.map(|speed| speed as f32),
-            turn_rates_rad_s: steadiest.step_turn_rates_rad_s.map(|rate| rate as f32),
-        }
-    })
-}
-
 /// Middles of all contacts, in order of time.
 ///
 /// Where the clip cuts a contact, its middle is half of a usual contact away from the visible end, if that still lies
@@ -351,16 +336,6 @@ mod tests {
         };
         assert_eq!(lost(1.4), Some(Unfit::NoWholeStride));
         assert_eq!(lost(4.0), None);
-    }
-
-    #[test]
-    fn the_steadiest_of_uneven_strides_is_reported() {
-        let landmark = |side, frame| Landmark { side, frame };
-        let stride = |half_speeds_mps| Some(Stride { half_speeds_mps, ..Stride::default() });
-        let steps = |strides| ClipSteps { landmarks: vec![landmark(Side::Left, 1.0)], strides };
-        let uneven = why_unsteady(&steps(vec![stride([0.1, 1.0]), None, stride([0.4, 0.9])]), &(0..9));
-        assert_eq!(uneven, Unfit::StridesUneven { speeds_mps: [0.4, 0.9], turn_rates_rad_s: [0.0; 2] });
-        assert_eq!(why_unsteady(&steps(vec![None]), &(0..9)), Unfit::NoWholeStride);
     }
 
     #[test]

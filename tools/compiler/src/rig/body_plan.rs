@@ -12,6 +12,10 @@ use crate::rig::joint_names::BodyPart;
 use crate::rig::limb::{self, Limb, LimbPair};
 use crate::rig::source_rig::SourceRig;
 
+/// Parts of an arm.
+const ARM_PARTS: [BodyPart; 3] = [BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand];
+/// Least number of a limb's three joints whose names make it an arm.
+const NAMED_MIN: usize = 2;
 /// Least weight of legs, for those that end a whole leg's length above another part of the body.
 const HANGING_WEIGHT: f64 = 0.05;
 /// Length of arms over legs. Drawn characters: 0.5 to 1.4 times this.
@@ -33,9 +37,6 @@ const HIP_FROM_FORK: f64 = 0.5;
 const STIFF_COSINE: f64 = 1e-4;
 /// Weight of a pair of limbs that do not bend.
 const STIFF_WEIGHT: f64 = 0.4;
-/// Least standard deviation of the hips' position, divided by the leg length, of a body that travels: a straight path
-/// of two legs' length. Jumps, and bodies that kneel and rise, reach 0.5.
-const TRAVEL_MIN: f64 = 0.6;
 /// Least distance of a toe joint from the ankle, divided by half the leg, and of a foot's end, divided by the whole
 /// leg.
 pub(crate) const TOE_DISTANCE: f64 = 0.12;
@@ -68,14 +69,8 @@ pub(crate) fn legs_and_arms(
     let Some((_, likeliest)) = legs.first() else {
         return Err(RejectionReason::NoLegs);
     };
-    let no_arms = if likeliest.limbs.iter().all(|limb| is_named_arm(rig, limb)) {
-        RejectionReason::NoLegs
-    } else {
-        let likeliest_legs = Box::new(likeliest.limbs.each_ref().map(|limb| end_names(rig, limb)));
-        RejectionReason::NoArms { likeliest_legs }
-    };
-    let arm_parts = [BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand];
-    let arms = known_arms.map_or_else(|| limb::pairs(rig, arm_parts), |pair| vec![pair]);
+    let without_arms = reason_without_arms(rig, likeliest);
+    let arms = known_arms.map_or_else(|| limb::pairs(rig, ARM_PARTS), |pair| vec![pair]);
     let mut best: Option<(f64, [LimbPair; 2])> = None;
     for (likelihood, legs) in legs {
         let Some((score, arms)) = best_arms(rig, &legs, &arms) else { continue };
@@ -84,18 +79,18 @@ pub(crate) fn legs_and_arms(
             best = Some((score, [legs, arms.clone()]));
         }
     }
-    best.map(|(_, limbs)| limbs).ok_or(no_arms)
+    best.map(|(_, limbs)| limbs).ok_or(without_arms)
 }
 
-/// Whether names call a limb an arm: a skeleton without legs has no longer pair.
-fn is_named_arm(rig: &SourceRig, limb: &Limb) -> bool {
-    let is_named = |(joint, part): (usize, BodyPart)| rig.hints[joint].parts.contains(&part);
-    limb.joints
-        .into_iter()
-        .zip([BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand])
-        .filter(|at| is_named(*at))
-        .count()
-        >= 2
+/// Why a skeleton on which no arms go with the likeliest legs is refused: where names call these legs arms, it lacks legs.
+fn reason_without_arms(rig: &SourceRig, likeliest: &LimbPair) -> RejectionReason {
+    let is_named_arm = |limb: &Limb| {
+        limb.joints.into_iter().zip(ARM_PARTS).filter(|&(joint, part)| rig.hints_at(joint, part)).count() >= NAMED_MIN
+    };
+    if likeliest.limbs.iter().all(is_named_arm) {
+        return RejectionReason::NoLegs;
+    }
+    RejectionReason::NoArms { likeliest_legs: Box::new(likeliest.limbs.each_ref().map(|limb| end_names(rig, limb))) }
 }
 
 /// Names of a limb's first and last joint.
@@ -179,19 +174,6 @@ fn bending_weight(rig: &SourceRig, pair: &LimbPair) -> f64 {
 pub(crate) fn upright_cosine(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> f64 {
     let legs_up = legs_up(rig, legs).normalize_or_zero();
     rig.mean(|frame| legs_up.dot((middle(rig, frame, arms, 0) - middle(rig, frame, legs, 0)).normalize_or_zero()))
-}
-
-/// Share of the body's path that lies along its own length, from feet to shoulders: 1 for people that crawl, swim or
-/// climb, 0 for a body that does not travel.
-pub(crate) fn lengthwise_share(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> f64 {
-    let hips = |frame: usize| middle(rig, frame, legs, 0);
-    let centre = rig.mean_vector(hips);
-    let length = rig.mean_vector(|frame| middle(rig, frame, arms, 0) - middle(rig, frame, legs, 2));
-    let length = length.normalize_or_zero();
-    let travel = rig.mean(|frame| (hips(frame) - centre).length_squared()).sqrt();
-    let ahead = |frame| (hips(frame) - centre).dot(length);
-    let along = rig.mean(|frame| ahead(frame) * ahead(frame)).sqrt();
-    if travel > TRAVEL_MIN * legs.limbs[0].length { along / travel } else { 0.0 }
 }
 
 /// Mean vector from the toes to the hips.

@@ -25,7 +25,6 @@ pub(crate) fn assigned_roles(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) 
         soles: [None; 2],
         heels: [None; 2],
         are_names_mirrored: false,
-        moves_lengthwise: false,
     };
     assign_limbs(rig, &mut roles, legs, arms);
     assign_trunk(rig, &mut roles, legs, arms);

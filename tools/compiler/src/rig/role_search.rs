@@ -17,9 +17,6 @@ use crate::rig::source_rig::SourceRig;
 /// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk at
 /// 0.9 to 1 and bow at 0.64; a fox gallops at 0.28.
 const UPRIGHT_COSINE: f64 = 0.45;
-/// Greatest share of a body's path along the line from feet to shoulders (cosine of 37°). On stairs 0.6, bent double
-/// 0.65.
-const LENGTHWISE_MAX: f64 = 0.8;
 /// Weights of names where there is no motion: the part that is sought, another part, a helper.
 const NAME_WEIGHTS_WITHOUT_MOTION: [f64; 3] = [2.0, 0.4, 0.2];
 /// Greatest standard deviation of a leg bone's length, divided by its mean. Knees of one hand-keyed walk translate by
@@ -60,7 +57,6 @@ fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReaso
         arms.limbs.swap(0, 1);
     }
     let mut roles = assigned_roles(rig, &legs, &arms);
-    roles.moves_lengthwise = body_plan::lengthwise_share(rig, &legs, &arms) > LENGTHWISE_MAX;
     roles.are_names_mirrored = known_legs.is_none() && sides.contradict_names;
     for (role, known) in roles.joints.iter_mut().zip(known) {
         *role = known.or(*role);

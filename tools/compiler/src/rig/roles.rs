@@ -29,8 +29,6 @@ pub struct Roles {
     pub heels: [Option<usize>; 2],
     /// Whether names call left what stands on the right. The file is mirrored; roles are as the body stands.
     pub are_names_mirrored: bool,
-    /// Whether the body's path lies along its own length, from feet to shoulders.
-    pub moves_lengthwise: bool,
 }
 
 impl Roles {
