@@ -1,7 +1,7 @@
 //! Captures of people as bodies over time, so that the measures of crowds measure people.
 //!
-//! Every BVH clip of a human body counts that travels or stands by itself for a second or more; clips in place have no
-//! motion of their own over the ground. Bodies keep their own size. Poses are taken at 60 Hz, contacts are those that the
+//! Every BVH clip of a human body counts that lasts a second or more and does not run; clips in place have no motion of
+//! their own over the ground. Bodies keep their own size. Poses are taken at 60 Hz, contacts are those that the
 //! compiler finds. World: metres, seconds, z up.
 
 use std::path::Path;
@@ -22,6 +22,8 @@ use crate::error::BenchError;
 const RATE_HZ: f64 = 60.0;
 /// Least duration of a clip, s.
 const DURATION_MIN_S: f64 = 1.0;
+/// Greatest mean speed of a clip, m/s: crowds do not run.
+const SPEED_MAX_MPS: f32 = 2.0;
 /// Folder of clips that are kept because something is wrong with them.
 const FLAWED: &str = "quirks";
 
@@ -36,14 +38,15 @@ pub(crate) fn captures(mocap: &Path) -> Result<Vec<BodyTrack>, BenchError> {
     let tracks = |path: &&std::path::PathBuf| {
         let imports = motiondb_compiler::import_file(path).unwrap_or_default();
         let clips = imports.into_iter().filter_map(|import| import.outcome.ok());
-        clips.filter(is_long_and_travels).map(|clip| track(&clip)).collect::<Vec<BodyTrack>>()
+        clips.filter(is_of_a_crowd).map(|clip| track(&clip)).collect::<Vec<BodyTrack>>()
     };
     Ok(files.par_iter().map(tracks).collect::<Vec<_>>().into_iter().flatten().collect())
 }
 
-fn is_long_and_travels(clip: &HumanClip) -> bool {
+fn is_of_a_crowd(clip: &HumanClip) -> bool {
     let duration_s = clip.frames.len() as f64 / clip.frame_rate_hz;
-    clip.in_place_mps.is_none() && clip.low_parts.is_empty() && duration_s >= DURATION_MIN_S
+    let runs = clip.source.speed_mps > SPEED_MAX_MPS;
+    !runs && clip.in_place_mps.is_none() && clip.low_parts.is_empty() && duration_s >= DURATION_MIN_S
 }
 
 /// A clip on its performer's own body, on the ground.

@@ -38,12 +38,11 @@ const START_SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
 /// Duration of the starts, s: the last time at which the phase order is taken, and a tenth.
 const START_S: f32 = 8.1;
 /// Scenario files of the crowds.
-const FILES: [ScenarioFile; 3] =
-    [scenario_file!("antipodal.toml"), scenario_file!("crossing.toml"), scenario_file!("bottleneck.toml")];
+const FILES: [ScenarioFile; 2] = [scenario_file!("crossing.toml"), scenario_file!("bottleneck.toml")];
 /// The two streams that cross.
-const CROSSING: ScenarioFile = FILES[1];
-/// Names of the crowds of Table 1.
-const TABLE1: [&str; 2] = ["bidir_53", "cross4_100"];
+const CROSSING: ScenarioFile = FILES[0];
+/// Names of the antipodal circle and of the crowds of Table 1, and their durations, s.
+const TABLE1: [(&str, f32); 3] = [("circle_17", 18.0), ("bidir_53", 60.0), ("cross4_100", 60.0)];
 /// Number of lanes, their distance (m), the distance that agents walk (m), and the duration (s).
 const LANES: (usize, f32, f32, f32) = (30, 5.0, 12.0, 30.0);
 /// Time for which agents in lanes stand before they start, s.
@@ -149,8 +148,12 @@ fn prepared(scenario: Scenario, prepare: fn(&mut Scenario)) -> Scenario {
 
 fn crowds() -> Result<Vec<Scenario>, BenchError> {
     let mut crowds = FILES.into_iter().map(scenario).collect::<Result<Vec<Scenario>, BenchError>>()?;
-    let of_table1 = scenes::bundled(&[1])?.into_iter().filter(|scene| TABLE1.contains(&scene.name.as_str()));
-    crowds.extend(of_table1.map(|scene| scene.scenario(Planner::default(), Coupling::default(), Params::default())));
+    for scene in scenes::bundled(&[1])? {
+        if let Some((_, duration_s)) = TABLE1.into_iter().find(|(name, _)| *name == scene.name) {
+            let scenario = scene.scenario(Planner::default(), Coupling::default(), Params::default());
+            crowds.push(Scenario { duration_s, ..scenario });
+        }
+    }
     Ok(crowds)
 }
 
