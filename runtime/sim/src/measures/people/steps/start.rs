@@ -17,6 +17,8 @@ pub(crate) const REST_MPS: f64 = 0.05;
 pub(crate) const REST_S: f64 = 0.3;
 /// Times after the rest between which the body walks, s.
 const WALK_S: [f64; 2] = [1.5, 2.5];
+/// Least duration over which the walking speed is taken, s, where the track ends before.
+const WALK_MIN_S: f64 = 0.4;
 /// Least walking speed, m/s.
 pub(crate) const WALK_MPS: f64 = 0.8;
 /// Share of the walking speed that ends a start.
@@ -70,7 +72,9 @@ impl StartTally {
 /// The start after a rest that ends with the frame `rest`.
 fn start(track: &BodyTrack, speeds_mps: &[f64], rest: usize) -> Option<[f64; 4]> {
     let [from, to] = WALK_S.map(|time_s| rest + track.count(time_s));
-    let walking_mps = median(speeds_mps.get(from..to)?.iter().copied()).filter(|speed_mps| *speed_mps >= WALK_MPS)?;
+    let to = to.min(speeds_mps.len());
+    let walk_mps = speeds_mps.get(from..to).filter(|walk_mps| walk_mps.len() >= track.count(WALK_MIN_S))?;
+    let walking_mps = median(walk_mps.iter().copied()).filter(|speed_mps| *speed_mps >= WALK_MPS)?;
     let full = (rest..to).find(|&index| speeds_mps[index] >= FULL_SHARE * walking_mps)?;
     let duration_s = (full - rest) as f64 * track.dt_s;
     let acceleration_mps2 = FULL_SHARE * walking_mps / duration_s;
