@@ -107,6 +107,10 @@ fn measure_and_simulate_follow_their_schemas() {
     let outputs = ["--trajectories", text(&trajectories), "--table", text(&table)];
     let measures = fbcrowd(&[&["measure", text(&recording), "--json"], &outputs[..]].concat()).expect_code(0).json();
     check_schema("measure", &measures);
+    let people = fbcrowd(&["measure", text(&recording), "--people", "--json"]).expect_code(0).json();
+    check_schema("measure-people", &people);
+    let minutes = people["agent_minutes"].as_f64().unwrap();
+    assert!((minutes - 31.0 / 30.0 / 60.0).abs() < 1e-3, "{minutes}");
     assert_eq!((&measures["agents"], &measures["steps"]), (&Value::from(1), &Value::from(30)));
     assert!(measures["mean_time_to_goal_s"].is_null());
     assert_eq!(fs::read_to_string(&trajectories).unwrap().lines().count(), 31);

@@ -22,7 +22,7 @@
 //! ```
 //!
 //! Read in this order: [`kit`], which all benches share; the compiler's benches ([`compiler`]); durations ([`speed`]);
-//! single bodies ([`synthesis`]); crowds ([`paper`], [`pedestrians`]); hostile input ([`soak`]).
+//! single bodies ([`synthesis`]); crowds ([`paper`], [`pedestrians`]); bodies as people ([`people`]); hostile input ([`soak`]).
 
 #![allow(rustdoc::private_intra_doc_links, reason = "the docs of a folder name all of its files")]
 
@@ -31,6 +31,7 @@ pub mod error;
 pub mod kit;
 pub mod paper;
 pub mod pedestrians;
+pub mod people;
 pub mod soak;
 pub mod speed;
 pub mod synthesis;
@@ -48,6 +49,7 @@ pub use crate::error::BenchError;
 use crate::kit::report::{BenchReport, PrintableReport};
 use crate::paper::{coupled, course, figure6, figure7, scenes, table1};
 use crate::pedestrians::{emergence, rimea};
+use crate::people::as_people;
 use crate::speed::{blend_space, bodies, plan, render, routes};
 use crate::synthesis::{blend, quality, reach, tracking};
 
@@ -99,6 +101,7 @@ benches! {
     Tracking, "tracking" => tracking;
     Reach, "reach" => reach;
     Quality, "quality" => quality;
+    People, "people" => as_people;
     Table1, "table1" => table1;
     Figure7, "figure7" => figure7;
     Course, "course" => course;

@@ -7,7 +7,7 @@
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
 //! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in
 //! states, `places` holds the scenario's own lines and areas, `pedestrian_studies` flow, lanes, density and waiting
-//! crowds; `agent_table` and `trajectories` write a recording as text.
+//! crowds; `people` whether bodies move and differ as people do; `agent_table` and `trajectories` write a recording as text.
 //! `shot_slide` measures feet in the frames of a shot. `character_soles` measures the feet of a character that wears a recording's poses.
 
 pub(crate) mod agent_table;
@@ -18,6 +18,7 @@ pub(crate) mod collision_rate;
 pub(crate) mod crowd_measures;
 pub(crate) mod frame_pairs;
 pub(crate) mod pedestrian_studies;
+pub mod people;
 pub(crate) mod places;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;

@@ -12,3 +12,5 @@ pub(crate) mod example;
 pub(crate) mod rows;
 pub(crate) mod segment_radii;
 pub(crate) mod skeleton;
+
+pub use skeleton::body_skeleton;

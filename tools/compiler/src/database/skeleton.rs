@@ -32,6 +32,11 @@ pub(crate) fn skeleton<'a>(body: &HumanBody, cycles: impl Iterator<Item = &'a Ga
     }
 }
 
+/// The skeleton of a body without cycles: its joint limits are the published ones.
+pub fn body_skeleton(body: &HumanBody) -> Skeleton {
+    skeleton(body, std::iter::empty())
+}
+
 /// Published joint ranges, widened where a cycle goes beyond them: limits never forbid what the clips do.
 fn limits_rad<'a>(cycles: impl Iterator<Item = &'a GaitCycle>) -> [[Vec3; 2]; JOINT_COUNT] {
     let mut limits = JOINT_RANGES_DEG.map(|range| range.map(|degrees| Vec3::from_array(degrees.map(f32::to_radians))));

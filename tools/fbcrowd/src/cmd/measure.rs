@@ -12,7 +12,7 @@ use fbcrowd_sim::recording::{FrameTimes, Recording};
 use fbcrowd_sim::scenario::{ShotSpec, check_shot};
 use motiondb::files::atomic_file::AtomicFile;
 
-use crate::report::crowd::measures_text;
+use crate::report::crowd::{measures_text, people_text};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 
@@ -37,6 +37,9 @@ pub(crate) struct Args {
     /// Draw each `[[measure]]` table of the scenario: N–t of lines and of the egress, density in areas.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Measure only whether bodies move as people do, and differ as people do; docs/measures.md defines the measures.
+    #[arg(long, conflicts_with_all = ["trajectories", "table", "plots", "fps"])]
+    people: bool,
     /// Measure only the slide of planted feet in frames at this rate, beside that of the recorded frames.
     #[arg(long, value_name = "RATE", conflicts_with_all = ["json", "trajectories", "table", "plots"])]
     fps: Option<f32>,
@@ -46,6 +49,9 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = Recording::open(&args.recording)?;
     if let Some(fps) = args.fps {
         return measure_shot(&recording, fps);
+    }
+    if args.people {
+        return measure_people(&recording, args.json);
     }
     check_outputs(args, &recording)?;
     let measures = measures::measure(&recording)?;
@@ -62,6 +68,17 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         output::print_json(&measures)?;
     } else {
         output::print(&measures_text::text(&measures))?;
+    }
+    Ok(Answer::Yes)
+}
+
+/// Prints the measures of people.
+fn measure_people(recording: &Recording, json: bool) -> Result<Answer, Failure> {
+    let people = measures::people::measure_people(recording)?;
+    if json {
+        output::print_json(&people)?;
+    } else {
+        output::print(&people_text::text(&people))?;
     }
     Ok(Answer::Yes)
 }

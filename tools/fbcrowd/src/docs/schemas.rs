@@ -3,6 +3,7 @@
 use fbcrowd_bench::Bench;
 use fbcrowd_jobs::json_schema::document;
 use fbcrowd_jobs::json_schema::measures::MeasuresMirror;
+use fbcrowd_jobs::json_schema::people::PeopleMeasuresMirror;
 use fbcrowd_jobs::scene_check::SceneFigures;
 use fbcrowd_jobs::timings::Timings;
 use schemars::JsonSchema;
@@ -46,6 +47,7 @@ pub(super) fn schemas() -> Vec<OutputSchema> {
         ("convert", document::<ConvertReport>("fbcrowd convert --json")),
         ("simulate", document::<Timings>("fbcrowd simulate --report")),
         ("measure", document::<MeasuresMirror>("fbcrowd measure --json")),
+        ("measure-people", document::<PeopleMeasuresMirror>("fbcrowd measure --people --json")),
     ];
     let of_commands = of_commands.into_iter().map(|(name, content)| (name.to_owned(), content));
     let of_benches = Bench::schemas().into_iter().map(|(name, content)| (format!("bench-{name}"), content));

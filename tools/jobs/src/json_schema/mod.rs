@@ -5,11 +5,12 @@
 //! type names its mirror (`#[schemars(with = "…")]`). The tests of the command line validate real output against the
 //! schemas, which allow no other keys and no missing ones; so a mirror that differs from its original fails.
 //!
-//! Read [`document`] first; then the mirrors: [`measures`] (simulation), [`motion`] (motion databases), [`survey`]
+//! Read [`document`] first; then the mirrors: [`measures`] and [`people`] (simulation), [`motion`] (motion databases), [`survey`]
 //! (compiler).
 
 pub mod measures;
 pub mod motion;
+pub mod people;
 pub mod survey;
 
 use schemars::generate::SchemaSettings;

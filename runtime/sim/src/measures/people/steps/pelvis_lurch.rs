@@ -1,0 +1,91 @@
+//! Lurches of the pelvis: moments in which it accelerates up or down as in no walk.
+//!
+//! The vertical acceleration is the second difference of the pelvis's height over 1/60 s (a time step where that is
+//! longer), of bodies whose root is faster than 0.3 m/s before they arrive. Frames above 18 m/s² that are at most 0.2 s
+//! apart are one lurch. Per minute in which an agent walks; m/s².
+
+use serde::Serialize;
+
+use crate::measures::people::body_track::{BodyTrack, event_count};
+
+/// Acceleration of a lurch, m/s².
+const LURCH_MPS2: f64 = 18.0;
+/// Least speed of a body that walks, m/s.
+const WALKING_MPS: f32 = 0.3;
+/// Distance of frames that are one event, s.
+pub(crate) const ONE_EVENT_S: f64 = 0.2;
+
+/// Lurches of a crowd.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PelvisLurches {
+    /// Number of lurches.
+    pub count: usize,
+    /// Lurches per minute in which an agent walks; none where none walks.
+    pub per_minute: Option<f64>,
+    /// Greatest vertical acceleration, m/s².
+    pub greatest_mps2: f64,
+}
+
+/// Counts lurches.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PelvisLurchTally {
+    count: usize,
+    minutes: f64,
+    greatest_mps2: f64,
+}
+
+impl PelvisLurchTally {
+    /// Adds a body.
+    pub(crate) fn add(&mut self, track: &BodyTrack) {
+        let (span, velocities_mps) = (track.acceleration_span(), track.velocities_mps());
+        let time_s = span as f64 * track.dt_s;
+        let last = track.samples.len().saturating_sub(span);
+        let height_m = |index: usize| f64::from(track.samples[index].pelvis_m.z);
+        let walks = |index: &usize| !track.samples[*index].has_arrived && velocities_mps[*index].length() > WALKING_MPS;
+        let accelerations = (span..last).filter(walks).map(|index| {
+            let mps2 = (height_m(index - span) - 2.0 * height_m(index) + height_m(index + span)) / (time_s * time_s);
+            (index, mps2.abs())
+        });
+        let accelerations: Vec<(usize, f64)> = accelerations.collect();
+        self.minutes += accelerations.len() as f64 * track.dt_s / 60.0;
+        self.greatest_mps2 = accelerations.iter().map(|(_, mps2)| *mps2).fold(self.greatest_mps2, f64::max);
+        let lurches = accelerations.iter().filter(|(_, mps2)| *mps2 > LURCH_MPS2).map(|(index, _)| *index);
+        self.count += event_count(lurches, track.count(ONE_EVENT_S));
+    }
+
+    /// The figures of all bodies.
+    pub(crate) fn finish(&self) -> PelvisLurches {
+        let per_minute = (self.minutes > 0.0).then(|| self.count as f64 / self.minutes);
+        PelvisLurches { count: self.count, per_minute, greatest_mps2: self.greatest_mps2 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measures::people::body_track::tests::track;
+
+    /// A body at a speed whose pelvis drops by 1 cm at once at 2 s and rises at 2.1 s and at 4 s.
+    fn lurches_at(speed_mps: f32) -> PelvisLurches {
+        let mut tally = PelvisLurchTally::default();
+        tally.add(&track(6.0, |time_s, sample| {
+            sample.root_m.x = speed_mps * time_s as f32;
+            sample.pelvis_m.z = 0.9 - 0.01 * f32::from(u8::from((2.0..2.1).contains(&time_s) || time_s > 4.0));
+        }));
+        tally.finish()
+    }
+
+    #[test]
+    fn near_jumps_are_one_lurch() {
+        let found = lurches_at(1.0);
+        assert_eq!(found.count, 2);
+        // 1 cm in 1/60 s.
+        assert!((found.greatest_mps2 - 36.0).abs() < 0.1, "{found:?}");
+        assert!((found.per_minute.unwrap() - 20.0).abs() < 0.2, "{found:?}");
+    }
+
+    #[test]
+    fn bodies_that_stand_do_not_count() {
+        assert_eq!(lurches_at(0.1).per_minute, None);
+    }
+}
