@@ -132,6 +132,22 @@ impl<'a> WorldView<'a> {
         shares
     }
 
+    /// An agent's velocity, and one of its neighbours, as the agent's half-plane takes them. The one of the higher
+    /// priority counts as walking at its preferred velocity already, as far as the priorities differ (up to 1; Curtis et
+    /// al. 2013): with no part in the avoiding, its half-plane passes through its velocity, and at the present one an
+    /// agent at rest could never begin to walk.
+    pub(crate) fn with_right_of_way(&self, agent: usize, neighbour: &Neighbour) -> (Vec2, Neighbour) {
+        let own_mps = self.velocities_mps[agent];
+        let Some(priorities) = self.priorities else { return (own_mps, *neighbour) };
+        let other = neighbour.agent as usize;
+        let above = (priorities[agent] - priorities[other]).clamp(-1.0, 1.0);
+        let gain_mps = |of: usize| self.preferred_mps[of] - self.velocities_mps[of];
+        let own_gain_mps = above.max(0.0) * gain_mps(agent);
+        let other_gain_mps = (-above).max(0.0) * gain_mps(other);
+        let relative_mps = neighbour.relative_mps + own_gain_mps - other_gain_mps;
+        (own_mps + own_gain_mps, Neighbour { relative_mps, ..*neighbour })
+    }
+
     /// The disc of an agent that other agents see.
     pub fn disc(&self, agent: usize) -> Disc {
         Disc {

@@ -65,7 +65,6 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     let OrcaMemory { surroundings, half_planes, projected } = memory;
     let wall_range_m = params.obstacle_time_horizon_s * params.speed_max_mps;
     surroundings.look_around(world, agent, params.neighbour_range_m, wall_range_m);
-    let own = world.disc(agent);
     half_planes.clear();
     let held = world.wall_disc(agent);
     wall_half_planes(world.walls_of(agent), &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
@@ -74,7 +73,8 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     let neighbours = surroundings.neighbours.as_slice();
     let shares = world.shares(agent, neighbours);
     half_planes.extend(neighbours.iter().zip(shares).map(|(neighbour, share)| {
-        agent_half_plane(own.velocity_mps, neighbour, share, params.time_horizon_s, world.dt_s)
+        let (own_mps, neighbour) = world.with_right_of_way(agent, neighbour);
+        agent_half_plane(own_mps, &neighbour, share, params.time_horizon_s, world.dt_s)
     }));
     let preferred_mps = world.preferred_mps[agent];
     let solution = solve(half_planes, firm_count, preferred_mps, params.speed_max_mps, projected);

@@ -47,7 +47,8 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     memory.of_agents.extend(neighbours.as_slice().iter().enumerate().map(|(lane, neighbour)| {
         let (share, horizon_s) = (shares[lane] + (of_priority[lane] - EQUAL_SHARE), horizons_s[lane]);
         let share = share.clamp(0.0, 1.0);
-        let half_plane = agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, parting_s); // ∪_j C_ij
+        let (own_mps, neighbour) = world.with_right_of_way(agent, neighbour);
+        let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
 }

@@ -47,3 +47,31 @@ fn the_agent_of_lower_priority_steps_aside() {
     let both = aside_m("state = 'hurry'", "profile = 'first_lady'");
     assert!((both[0] - equal[0]).abs() < 0.02, "{both:?}, equal {equal:?}");
 }
+
+/// Time at which an agent of a priority is 6 m from its start, s; nine agents walk towards it.
+fn passing_time_s(priority: f32) -> f64 {
+    let text = format!(
+        "duration_s = 20
+        profiles.first = {{ priority = {priority} }}
+        [[agents]]
+        at_m = [0, 0]
+        goals_m = [[12, 0]]
+        profile = 'first'
+        [[agents]]
+        grid = {{ columns = 3, rows = 3, spacing_m = 0.9, centre_m = [10, 0], jitter_m = 0.1 }}
+        goal_offset_m = [-16, 0]"
+    );
+    let mut passed_s = f64::INFINITY;
+    tests::run(&scenario_of(&text), |simulation, time_s| {
+        if simulation.frames()[0].root.position_m.x > 6.0 {
+            passed_s = passed_s.min(time_s);
+        }
+    });
+    passed_s
+}
+
+#[test]
+fn right_of_way_delays_no_agent() {
+    let [first_s, equal_s] = [1.0, 0.0].map(passing_time_s);
+    assert!(first_s < equal_s + 0.1 && first_s < 6.0, "{first_s} s with priority, {equal_s} s without");
+}
