@@ -18,6 +18,8 @@ const COLOUR_M: f64 = 0.2;
 const BORDER_WEIGHT: f64 = 1.0;
 /// Least cosine of the angle by which a triangle turns in a collapse.
 const LEAST_TURN_COS: f64 = 0.3;
+/// Twice the area of a triangle over the square of its longest edge below which rounding decides where it faces.
+const THIN: f64 = 1e-3;
 /// Greatest number of triangles around both points of a collapse: a hub of thousands stays as it is.
 const AROUND_MAX: usize = 96;
 /// Greatest number of points that are looked at together.
@@ -180,14 +182,33 @@ impl<'a> Reduction<'a> {
         if self.around[from as usize].len() > AROUND_MAX {
             return None;
         }
-        let beside = self.triangles_around(from).flat_map(|triangle| self.surface.corner_points(triangle));
-        let mut beside: Vec<u32> = beside.filter(|point| *point != from).collect();
+        let beside = self.beside(from);
+        let collapse = |onto: u32| Some(Collapse { error_m2: self.error_m2(from, onto)?, onto });
+        let mut collapses: Vec<Collapse> = beside.iter().copied().filter_map(collapse).collect();
+        collapses.sort_by(|one, other| one.error_m2.total_cmp(&other.error_m2).then(one.onto.cmp(&other.onto)));
+        let is_allowed = |onto: u32| self.keeps_sides(from, onto) && self.keeps_topology(from, &beside, onto);
+        collapses.into_iter().find(|collapse| is_allowed(collapse.onto))
+    }
+
+    /// The points that share a triangle with a point, rising.
+    fn beside(&self, point: u32) -> Vec<u32> {
+        let corners = self.triangles_around(point).flat_map(|triangle| self.surface.corner_points(triangle));
+        let mut beside: Vec<u32> = corners.filter(|corner| *corner != point).collect();
         beside.sort_unstable();
         beside.dedup();
-        let collapse = |onto: u32| Some(Collapse { error_m2: self.error_m2(from, onto)?, onto });
-        let mut collapses: Vec<Collapse> = beside.into_iter().filter_map(collapse).collect();
-        collapses.sort_by(|one, other| one.error_m2.total_cmp(&other.error_m2).then(one.onto.cmp(&other.onto)));
-        collapses.into_iter().find(|collapse| self.keeps_sides(from, collapse.onto))
+        beside
+    }
+
+    /// Whether both points have no common neighbours but the corners of their common triangles (link condition, Dey et al.
+    /// 1999): else a thin part, as hair over a head, would fold flat and vanish.
+    fn keeps_topology(&self, from: u32, beside: &[u32], onto: u32) -> bool {
+        let common = self.beside(onto).into_iter().filter(|point| beside.binary_search(point).is_ok()).count();
+        let shared = self.triangles_around(from).map(|triangle| self.surface.corner_points(triangle));
+        let mut corners: Vec<u32> = shared.filter(|points| points.contains(&onto)).flatten().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        // Both points are corners, too.
+        common + 2 == corners.len()
     }
 
     /// Greatest mean squared error of a collapse, m²: of planes in any pose, of attributes of any wedge; none where a
@@ -239,8 +260,11 @@ impl<'a> Reduction<'a> {
             let moved = points.map(|point| if point == from { onto } else { point });
             (0..POSES).all(|pose| {
                 let at_m = |point: u32| self.surface.positions_m[point as usize][pose];
-                let [before, after] = [points, moved].map(|points| across(points.map(at_m)));
-                before.dot(after) > LEAST_TURN_COS * (before.length() * after.length())
+                let [before_m, after_m] = [points, moved].map(|points| points.map(at_m));
+                let [before, after] = [before_m, after_m].map(across);
+                // A triangle without area has no side: it may get one, and none may lose it.
+                is_thin(before_m)
+                    || !is_thin(after_m) && before.dot(after) > LEAST_TURN_COS * before.length() * after.length()
             })
         })
     }
@@ -264,12 +288,10 @@ impl<'a> Reduction<'a> {
                 self.is_left[triangle] = false;
                 continue;
             }
-            for corner in 0..3 {
-                if points[corner] == from {
-                    let vertex = self.surface.triangles[triangle][corner];
-                    self.surface.triangles[triangle][corner] = self.replacement(vertex, &pairs, &vertices);
-                }
-            }
+            self.surface.triangles[triangle] = self.surface.triangles[triangle].map(|vertex| {
+                let is_moved = self.surface.points[vertex as usize] == from;
+                if is_moved { self.replacement(vertex, &pairs, &vertices) } else { vertex }
+            });
             self.around[onto as usize].push(triangle as u32);
         }
         self.around[from as usize].clear();
@@ -311,6 +333,12 @@ impl<'a> Reduction<'a> {
 /// The normal of a triangle, as long as twice its area.
 fn across(corners_m: [DVec3; 3]) -> DVec3 {
     (corners_m[1] - corners_m[0]).cross(corners_m[2] - corners_m[0])
+}
+
+/// Whether the corners lie nearly on a line.
+fn is_thin(corners_m: [DVec3; 3]) -> bool {
+    let longest_m2 = (0..3).map(|from| corners_m[from].distance_squared(corners_m[(from + 1) % 3])).fold(0.0, f64::max);
+    across(corners_m).length() <= THIN * longest_m2
 }
 
 /// Metres on a triangle for a unit of its texture coordinates; 0 where they do not change.
