@@ -29,13 +29,13 @@ impl CharacterMesh {
         }
     }
 
-    /// Colours of all vertices, linear and dyed. With `textured`, those of textured materials are the plain tints by which
-    /// textures are multiplied, without dye. The list is cleared first.
-    pub fn dyed(&self, dye: &Dye, textured: bool, colours: &mut Vec<Vec3>) {
+    /// Colours of all vertices, linear and dyed; those of textured materials are the plain tints by which textures are
+    /// multiplied, without dye. The list is cleared first.
+    pub fn dyed(&self, dye: &Dye, colours: &mut Vec<Vec3>) {
         colours.clear();
         colours.extend(self.colours.iter().map(|colour| Vec3::from(*colour)));
         for (material, triangles) in self.runs() {
-            let is_textured = textured && material.texture.is_some();
+            let is_textured = material.texture.is_some();
             if !is_textured && *dye == Dye::default() {
                 continue;
             }

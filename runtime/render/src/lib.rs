@@ -27,13 +27,14 @@
 //! To draw single frames in memory, see [`TopView`] and `examples/draw_one_frame.rs`.
 //!
 //! Chapters, in reading order: [`top_view`] (a recording becomes a sequence of frames), [`camera`] (the same at eye height,
-//! by [`visibility`], [`shading`] and the figure of a body), [`constraints`] (why a velocity was planned), [`plots`], and
+//! by [`visibility`], [`shading`], the figure of a body and the levels of detail of characters), [`constraints`] (why a velocity was planned), [`plots`], and
 //! what they draw with: [`raster`]. Faults are [`RenderError`]s.
 //!
 //! Conventions: world in metres, x right, y up; pixels x right, y down. Colours are sRGB, 0 to 1.
 
 pub mod camera;
 pub mod constraints;
+pub(crate) mod detail;
 pub mod error;
 pub(crate) mod figure;
 pub mod passes;

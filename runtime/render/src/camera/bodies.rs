@@ -17,8 +17,6 @@ const BODY_M: [f32; 2] = [0.9, 1.2];
 const SHADOW_REACH_M: f32 = 2.5;
 /// Height of a body, m.
 const HEIGHT_M: f32 = 1.75;
-/// Height of a body in the picture from which on its character is drawn; smaller ones are plain cones, pixels.
-const CHARACTER_PX: f32 = 24.0;
 /// Number of agents that are posed at once.
 const AGENTS_AT_ONCE: usize = 32;
 
@@ -97,10 +95,10 @@ impl Dresser<'_> {
     }
 
     fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, stature: f32, height_px: f32, shown: Option<Rgb>) {
-        match self.character_of(agent).filter(|_| height_px >= CHARACTER_PX) {
+        match self.character_of(agent) {
             Some((wardrobe, character)) => {
                 let shown = shown.map(|rgb| rgb.map(decode_srgb).clamp(Vec3::ZERO, Vec3::ONE));
-                wardrobe.append(parts, &Wearer { agent, character, height_px, shown });
+                wardrobe.append(parts, &Wearer { agent, character, pixel_m: HEIGHT_M / height_px, shown });
             }
             None => {
                 let look = dressed(agent, shown);

@@ -5,16 +5,15 @@ use std::sync::Arc;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::character::{Character, CharacterFit, CharacterTexture, Dye, JointTransform, Material};
+use motiondb::character::{Character, CharacterFit, CharacterMesh, CharacterTexture, Dye, JointTransform, Material};
 use rayon::prelude::*;
 
+use crate::detail::Levels;
 use crate::visibility::{Cone, Owner, Paint, SceneParts, Texture};
 
 /// Material of characters.
 const CHARACTER: u32 = 1;
 
-/// Height in the picture above which textures are drawn; below, each vertex has one colour, pixels.
-const TEXTURED_PX: f32 = 100.0;
 /// Greatest number of pixels of all textures; larger ones are halved: with their halves they take 700 MB.
 const PIXELS_MAX: usize = 128 << 20;
 
@@ -23,6 +22,8 @@ const PIXELS_MAX: usize = 128 << 20;
 pub(crate) struct Wardrobe<'a> {
     header: &'a Header,
     fits: Vec<CharacterFit<'a>>,
+    /// Of each character.
+    levels: Vec<Levels<'a>>,
     textures: Textures,
 }
 
@@ -31,8 +32,8 @@ pub(crate) struct Wearer<'a> {
     pub(crate) agent: &'a AgentFrame,
     /// Index of the character.
     pub(crate) character: u32,
-    /// Height in the picture, pixels.
-    pub(crate) height_px: f32,
+    /// Width of a pixel on a body of the crowd's size, m.
+    pub(crate) pixel_m: f32,
     /// A colour that shows a quantity, linear.
     pub(crate) shown: Option<Vec3>,
 }
@@ -40,13 +41,10 @@ pub(crate) struct Wearer<'a> {
 impl<'a> Wardrobe<'a> {
     /// Fits characters, in the recording's order, to its skeleton.
     pub(crate) fn new(header: &'a Header, characters: &'a [Character]) -> Self {
-        let fits = characters.iter().map(|character| CharacterFit::new(character, header.skeleton())).collect();
-        Self { header, fits, textures: Textures::new(characters) }
-    }
-
-    /// Whether there is a character of this index.
-    pub(crate) fn has(&self, character: u32) -> bool {
-        (character as usize) < self.fits.len()
+        let skeleton = header.skeleton();
+        let fits: Vec<_> = characters.iter().map(|character| CharacterFit::new(character, skeleton)).collect();
+        let levels = fits.par_iter().map(|fit| Levels::new(fit, skeleton)).collect();
+        Self { header, fits, levels, textures: Textures::new(characters) }
     }
 
     /// The textures of all characters.
@@ -54,16 +52,22 @@ impl<'a> Wardrobe<'a> {
         self.textures.all.clone()
     }
 
-    /// Appends the mesh of an agent.
+    /// Whether there is a character of this index.
+    pub(crate) fn has(&self, character: u32) -> bool {
+        (character as usize) < self.fits.len()
+    }
+
+    /// Appends the mesh of an agent, as fine as its pixels show.
     pub(crate) fn append(&self, parts: &mut SceneParts, wearer: &Wearer) {
-        let Wearer { agent, character, height_px, shown } = *wearer;
+        let Wearer { agent, character, pixel_m, shown } = *wearer;
         let Some(fit) = self.fits.get(character as usize) else { return };
         let joints = agent.pose.forward_kinematics(self.header.skeleton());
         let mut transforms = Vec::new();
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
         let worn = Worn {
             fit,
-            first_texture: (height_px > TEXTURED_PX).then(|| self.textures.firsts[character as usize]),
+            mesh: self.levels[character as usize].of_pixel(pixel_m),
+            first_texture: self.textures.firsts[character as usize],
             dye: Dye { hue_turn: self.header.scenario.hue_turn_of(agent.id.0, character), shown },
             owner: Owner { agent: agent.id.0, material: CHARACTER },
         };
@@ -101,8 +105,10 @@ impl Textures {
 /// A character as one agent wears it.
 pub(crate) struct Worn<'a> {
     pub(crate) fit: &'a CharacterFit<'a>,
-    /// Index of the character's first texture in the scene; none where each vertex has one colour.
-    pub(crate) first_texture: Option<u32>,
+    /// The character's mesh, or a reduced one.
+    pub(crate) mesh: &'a CharacterMesh,
+    /// Index of the character's first texture in the scene.
+    pub(crate) first_texture: u32,
     pub(crate) dye: Dye,
     pub(crate) owner: Owner,
 }
@@ -111,13 +117,13 @@ impl Worn<'_> {
     /// Appends the mesh and the capsules of a posed character.
     pub(crate) fn append(&self, parts: &mut SceneParts, transforms: &[JointTransform]) {
         let (mut positions_m, mut normals, mut colours) = (Vec::new(), Vec::new(), Vec::new());
-        let mesh = &self.fit.character.mesh;
+        let mesh = self.mesh;
         mesh.skin(transforms, &mut positions_m, &mut normals);
-        mesh.dyed(&self.dye, self.first_texture.is_some(), &mut colours);
+        mesh.dyed(&self.dye, &mut colours);
         parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, self.owner);
-        if let (Some(first), false) = (self.first_texture, mesh.uvs.is_empty()) {
+        if !mesh.uvs.is_empty() {
             let paint = |material: &Material| {
-                let texture = first + material.texture?;
+                let texture = self.first_texture + material.texture?;
                 Some(Paint { texture, cut_out: material.cut_out, dye: self.dye, keeps_hue: material.keeps_hue })
             };
             let runs = mesh.materials.iter().map(|material| (material.triangle_count as usize, paint(material)));

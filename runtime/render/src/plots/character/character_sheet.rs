@@ -63,7 +63,7 @@ pub fn character_sheet(character: &Character, stride: &Stride) -> Pixmap {
     let mut scene = SceneParts { textures, ..SceneParts::default() };
     for (index, (figure, x_m)) in figures.iter().zip(layout.x_m).enumerate() {
         let owner = Owner { agent: index as u32, material: 1 };
-        let worn = Worn { fit: &fit, first_texture: Some(0), dye: Dye::default(), owner };
+        let worn = Worn { fit: &fit, mesh: &character.mesh, first_texture: 0, dye: Dye::default(), owner };
         worn.append(&mut scene, &figure.moved(x_m));
     }
     let header = Header::of(stride.database.clone(), Scenario::of(Vec::new()));
