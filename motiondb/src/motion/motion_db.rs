@@ -13,6 +13,7 @@ use crate::blend_space::space::BlendSpace;
 use crate::body::pose::{Joints, Pose};
 use crate::body::skeleton::{JOINT_COUNT, Skeleton};
 use crate::diagnostic::Diagnostic;
+use crate::motion::action::{Action, ActionKind};
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
 use crate::velocity_sets::velocity_hull::VelocityHull;
@@ -50,12 +51,19 @@ pub struct MotionDb {
     pub blend_space: BlendSpace,
     /// Times at which synthesis may switch; `None` if fewer than two examples step.
     pub correspondence: Option<Correspondence>,
+    /// Idles, the best first, then transitions by kind and name.
+    pub actions: Vec<Action>,
 }
 
 impl MotionDb {
     /// Joints of one example in every row, root frame.
     pub fn posed_rows(&self, example: usize) -> Vec<Joints> {
         (0..PHASE_COUNT).map(|phase| self.rows.pose(example, phase).forward_kinematics(&self.skeleton)).collect()
+    }
+
+    /// The idles, the best first.
+    pub fn idles(&self) -> impl Iterator<Item = &Action> {
+        self.actions.iter().filter(|action| action.kind == ActionKind::Idle)
     }
 
     /// Parameters of all examples, by index.

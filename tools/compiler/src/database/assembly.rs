@@ -38,6 +38,7 @@ pub(crate) fn assemble(
     let mut db = MotionDb {
         skeleton: skeleton(body, cycles.iter().map(|named| &named.cycle)),
         correspondence: None,
+        actions: Vec::new(),
         velocity_hull: velocity_hull::build(&parameters, construction),
         rows: rows(cycles.iter().map(|named| &named.cycle)),
         blend_space,
