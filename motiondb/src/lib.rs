@@ -1,6 +1,7 @@
 //! The motion database: examples of human motion, and everything that the offline compiler and the runtime share.
 //!
-//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities at which a body can move
+//! A database holds closed, phase-aligned cycles of motion (the *examples*), recorded idles and transitions (the
+//! *actions*), the velocities at which a body can move
 //! with them ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times in the cycle at which
 //! synthesis can switch from one example to another ([`Correspondence`]). The file format is `.fbdb`.
 //!
@@ -57,5 +58,7 @@ pub use blend_space::{BlendSpace, Locator, Shares};
 pub use body::{Foot, JOINT_COUNT, Joint, Joints, Pose, Root, RootFrame, Side, Skeleton};
 pub use diagnostic::Diagnostic;
 pub use files::atomic_file::AtomicFile;
-pub use motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord};
+pub use motion::{
+    Action, ActionKind, Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord,
+};
 pub use velocity_sets::velocity_hull::{Construction, VelocityHull};

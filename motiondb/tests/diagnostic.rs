@@ -235,6 +235,14 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (Unfit::TPose, "the body stands in a T-pose; use a clip of a body that stands at ease"),
         (
+            Unfit::ArmsOut,
+            "the body stands with its arms spread, as in a bind pose; use a clip of a body that stands at ease",
+        ),
+        (
+            Unfit::ArmRaised,
+            "the body stands with a raised arm, as one that aims; use a clip of a body that stands at ease",
+        ),
+        (
             Unfit::StridesUneven { speeds_mps: [0.4, 0.9], turn_rates_rad_s: [0.0, FRAC_PI_2] },
             "no steady stride was found: in the steadiest one the speed varies from 0.40 to 0.90 m/s, and its steps turn \
              by 0 and 90 °/s; use a clip of a steady gait",
@@ -321,6 +329,8 @@ const NUMBERED: [&[&str]; 3] = [
         "t_pose",
         "moves_lengthwise",
         "strides_uneven",
+        "arms_out",
+        "arm_raised",
     ],
 ];
 

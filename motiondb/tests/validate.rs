@@ -4,7 +4,7 @@ mod support;
 
 use glam::{Quat, Vec2};
 use motiondb::body::JOINT_COUNT;
-use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::motion::{ActionKind, MotionDb, PHASE_COUNT};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::validate;
 use motiondb::velocity_sets::velocity_hull::Construction;
@@ -131,4 +131,32 @@ fn faults_of_derived_sets_are_named() {
     check_breaks("correspondences_are_cyclic", |db| pairs(db, &[[0.2, 0.3], [9.0, 0.4]]));
     check_breaks("correspondences_are_cyclic", |db| pairs(db, &[[0.2, 0.3], [0.4, 0.4]]));
     check_breaks("correspondences_are_cyclic", |db| db.correspondence = None);
+}
+
+#[test]
+fn faults_of_actions_are_named() {
+    check_breaks("actions_are_complete", |db| db.actions[0].frames.truncate(1));
+    check_breaks("actions_are_complete", |db| db.actions[1].source = 9);
+    check_breaks("actions_are_complete", |db| db.actions[1].exit.example = 9);
+    check_breaks("actions_are_complete", |db| db.actions[1].name = db.actions[0].name.clone());
+    check_breaks("actions_are_complete", |db| db.actions.swap(0, 1));
+    check_breaks("action_frames_are_finite", |db| db.actions[1].window_s = [1.0, 0.5]);
+    check_breaks("action_frames_are_finite", |db| db.actions[1].entry.phase = 1.0);
+    check_breaks("action_frames_are_finite", |db| db.actions[1].frames[3].pose.pelvis_m.z = f32::NAN);
+    check_breaks("action_frames_are_finite", |db| db.actions[1].frames[3].contacts[1] = 1.5);
+    check_breaks("action_frames_are_finite", |db| db.actions[1].frames[3].root.facing_rad = f32::INFINITY);
+    check_breaks("action_rotations_are_unit_and_aligned", |db| {
+        let rotation = &mut db.actions[0].frames[9].pose.rotations[4];
+        *rotation = -*rotation;
+    });
+    check_breaks("idles_are_loops", |db| db.actions[0].frames[9].contacts[0] = 0.2);
+    check_breaks("idles_are_loops", |db| {
+        db.actions[0].frames[60].pose.rotations[4] = Quat::from_rotation_x(0.01);
+    });
+    check_breaks("actions_meet_their_examples", |db| db.actions[1].kind = ActionKind::Step);
+    check_breaks("actions_meet_their_examples", |db| db.actions[1].exit.example = 2);
+    check_breaks("actions_meet_their_examples", |db| db.actions[1].frames[0].root.facing_rad = 0.1);
+    check_breaks("actions_meet_their_examples", |db| {
+        db.actions[1].frames[72].root.position_m.x += 0.01;
+    });
 }

@@ -94,6 +94,10 @@ pub enum Unfit {
         /// Of the steadiest stride: turn rates of its two steps, rad/s.
         turn_rates_rad_s: [f32; 2],
     },
+    /// The body stands with straight arms that point away from it, as in a bind pose.
+    ArmsOut,
+    /// The body stands with a raised arm, as one that aims.
+    ArmRaised,
 }
 
 impl Unfit {
@@ -116,6 +120,8 @@ impl Unfit {
             Self::TPose => "t_pose",
             Self::MovesLengthwise => "moves_lengthwise",
             Self::StridesUneven { .. } => "strides_uneven",
+            Self::ArmsOut => "arms_out",
+            Self::ArmRaised => "arm_raised",
         }
     }
 }
@@ -175,6 +181,12 @@ impl fmt::Display for Unfit {
                 "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
             ),
             Self::TPose => out.write_str("the body stands in a T-pose; use a clip of a body that stands at ease"),
+            Self::ArmsOut => out.write_str(
+                "the body stands with its arms spread, as in a bind pose; use a clip of a body that stands at ease",
+            ),
+            Self::ArmRaised => out.write_str(
+                "the body stands with a raised arm, as one that aims; use a clip of a body that stands at ease",
+            ),
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \
                  clip of walking or standing",

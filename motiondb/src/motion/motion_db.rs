@@ -13,6 +13,7 @@ use crate::blend_space::space::BlendSpace;
 use crate::body::pose::{Joints, Pose};
 use crate::body::skeleton::{JOINT_COUNT, Skeleton};
 use crate::diagnostic::Diagnostic;
+use crate::motion::action::{Action, ActionKind};
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
 use crate::velocity_sets::velocity_hull::VelocityHull;
@@ -50,12 +51,19 @@ pub struct MotionDb {
     pub blend_space: BlendSpace,
     /// Times at which synthesis may switch; `None` if fewer than two examples step.
     pub correspondence: Option<Correspondence>,
+    /// Idles, the best first, then transitions by kind and name.
+    pub actions: Vec<Action>,
 }
 
 impl MotionDb {
     /// Joints of one example in every row, root frame.
     pub fn posed_rows(&self, example: usize) -> Vec<Joints> {
         (0..PHASE_COUNT).map(|phase| self.rows.pose(example, phase).forward_kinematics(&self.skeleton)).collect()
+    }
+
+    /// The idles, the best first.
+    pub fn idles(&self) -> impl Iterator<Item = &Action> {
+        self.actions.iter().filter(|action| action.kind == ActionKind::Idle)
     }
 
     /// Parameters of all examples, by index.
@@ -174,22 +182,37 @@ impl Rows {
 
     /// Weighted sum of rows (example, phase, weight). The weights must sum to 1.
     pub fn blended(&self, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
-        let row = |(example, phase, weight)| {
-            (self.pelvis_m[example * PHASE_COUNT + phase], self.rotations(example, phase), weight)
-        };
-        let rows: Vec<(Vec3, &[Quat; JOINT_COUNT], f32)> = rows.into_iter().map(row).collect();
-        let pelvis_m = rows.iter().fold(Vec3::ZERO, |sum, &(pelvis_m, _, weight)| sum + weight * pelvis_m);
-        // Joint by joint: each sum stays in a register.
-        let zero = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
-        let sum = |joint: usize| rows.iter().fold(zero, |sum, &(_, rotations, weight)| sum + rotations[joint] * weight);
-        // All rows share a hemisphere, so no sum is near zero.
-        Pose { pelvis_m, rotations: array::from_fn(|joint| sum(joint).normalize()) }
+        weighted_sum(&rows.into_iter().map(|row| self.weighted(row)).collect::<Vec<_>>())
+    }
+
+    /// Weighted sum of a pose, in the hemisphere of the rows, and of rows (example, phase, weight). The weights must sum
+    /// to 1.
+    pub fn blended_with(&self, pose: &Pose, weight: f32, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
+        let rows = rows.into_iter().map(|row| self.weighted(row));
+        weighted_sum(&rows.chain([(pose.pelvis_m, &pose.rotations, weight)]).collect::<Vec<_>>())
+    }
+
+    fn weighted(&self, (example, phase, weight): (usize, usize, f32)) -> WeightedPose<'_> {
+        (self.pelvis_m[example * PHASE_COUNT + phase], self.rotations(example, phase), weight)
     }
 
     /// Mean pose of an example over its cycle.
     pub fn mean_pose(&self, example: usize) -> Pose {
         self.blended((0..PHASE_COUNT).map(|phase| (example, phase, 1.0 / PHASE_COUNT as f32)))
     }
+}
+
+/// Position of the pelvis (m), rotations of the joints, weight.
+type WeightedPose<'a> = (Vec3, &'a [Quat; JOINT_COUNT], f32);
+
+/// Weighted sum of poses whose rotations share a hemisphere.
+fn weighted_sum(rows: &[WeightedPose]) -> Pose {
+    let pelvis_m = rows.iter().fold(Vec3::ZERO, |sum, &(pelvis_m, _, weight)| sum + weight * pelvis_m);
+    // Joint by joint: each sum stays in a register.
+    let zero = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    let sum = |joint: usize| rows.iter().fold(zero, |sum, &(_, rotations, weight)| sum + rotations[joint] * weight);
+    // All rows share a hemisphere, so no sum is near zero.
+    Pose { pelvis_m, rotations: array::from_fn(|joint| sum(joint).normalize()) }
 }
 
 /// Findings about one source clip. Parameters are means over the clip, on the source's own skeleton, before any

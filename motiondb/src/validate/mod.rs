@@ -6,10 +6,12 @@
 //!
 //! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
 //! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
-//! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). If `structure` fails, only its
+//! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). `actions` has the invariants of
+//! actions in all tiers. If `structure` fails, only its
 //! first fault is reported. In later tiers, all faults are. After a failed tier, later tiers are not checked. The doc
 //! of each function states the invariant.
 
+mod actions;
 mod blending;
 mod motion;
 mod structure;
@@ -48,15 +50,16 @@ type CheckResult = Result<(), String>;
 type Invariant = (&'static str, fn(&MotionDb) -> CheckResult);
 
 /// First tier: lengths, indices and names, each based on those before.
-const STRUCTURE: [Invariant; 4] = [
+const STRUCTURE: [Invariant; 5] = [
     ("has_examples", structure::has_examples),
     ("rows_are_complete", structure::rows_are_complete),
     ("indices_are_in_range", structure::indices_are_in_range),
     ("names_are_unique", structure::names_are_unique),
+    ("actions_are_complete", actions::actions_are_complete),
 ];
 
 /// Second tier: values, each by itself.
-const VALUES: [Invariant; 7] = [
+const VALUES: [Invariant; 9] = [
     ("skeleton_is_a_body", values::skeleton_is_a_body),
     ("sources_are_finite", values::sources_are_finite),
     ("windows_are_ordered", values::windows_are_ordered),
@@ -64,15 +67,19 @@ const VALUES: [Invariant; 7] = [
     ("phase_maps_rise", values::phase_maps_rise),
     ("rows_are_finite", values::rows_are_finite),
     ("rotations_are_unit_and_aligned", values::rotations_are_unit_and_aligned),
+    ("action_frames_are_finite", actions::action_frames_are_finite),
+    ("action_rotations_are_unit_and_aligned", actions::action_rotations_are_unit_and_aligned),
 ];
 
 /// Third tier: consequences of the values.
-const CONSEQUENCES: [Invariant; 11] = [
+const CONSEQUENCES: [Invariant; 13] = [
     ("cycles_close", motion::cycles_close),
     ("landmarks_are_mid_stances", motion::landmarks_are_mid_stances),
     ("key_times_end_contacts", motion::key_times_end_contacts),
     ("planted_feet_slide_as_stored", motion::planted_feet_slide_as_stored),
     ("parameters_follow_from_the_motion", motion::parameters_follow_from_the_motion),
+    ("idles_are_loops", actions::idles_are_loops),
+    ("actions_meet_their_examples", actions::actions_meet_their_examples),
     ("hulls_are_clockwise_and_convex", velocity_sets::hulls_are_clockwise_and_convex),
     ("hulls_wrap_their_examples", velocity_sets::hulls_wrap_their_examples),
     ("half_planes_agree_with_the_hulls", velocity_sets::half_planes_agree_with_the_hulls),

@@ -11,7 +11,7 @@ use crate::motion::phase_map::MAX_ASYMMETRY;
 use crate::validate::{CheckResult, each, ensure};
 
 /// Greatest difference of a rotation's length from 1: rounding.
-const UNIT_TOLERANCE: f32 = 1e-3;
+pub(crate) const UNIT_TOLERANCE: f32 = 1e-3;
 /// Greatest speed, m/s: no human is faster; above it a unit is wrong.
 const SPEED_LIMIT_MPS: f32 = 15.0;
 /// Greatest turn rate, rad/s: two turns a second; above it a unit is wrong.
@@ -98,13 +98,17 @@ pub(crate) fn rows_are_finite(db: &MotionDb) -> CheckResult {
     let leg_m = db.skeleton.leg_length_m();
     for (row, (pelvis_m, contacts)) in db.rows.pelvis_m.iter().zip(&db.rows.contacts).enumerate() {
         let position = || format!("{}, phase {}", db.examples[row / PHASE_COUNT].name, row % PHASE_COUNT);
-        let near = pelvis_m.truncate().length() < 2.0 * leg_m && pelvis_m.z > 0.0 && pelvis_m.z < 3.0 * leg_m;
-        ensure(near, || format!("{}: the pelvis is at {pelvis_m} m", position()))?;
+        ensure(is_near_root(*pelvis_m, leg_m), || format!("{}: the pelvis is at {pelvis_m} m", position()))?;
         ensure(contacts.iter().all(|contact| (0.0..=1.0).contains(contact)), || {
             format!("{}: the contacts are {contacts:?}", position())
         })?;
     }
     Ok(())
+}
+
+/// Whether a pelvis is near its root, above the ground.
+pub(crate) fn is_near_root(pelvis_m: Vec3, leg_m: f32) -> bool {
+    pelvis_m.truncate().length() < 2.0 * leg_m && pelvis_m.z > 0.0 && pelvis_m.z < 3.0 * leg_m
 }
 
 /// Rotations are unit quaternions. In every row, each joint is in the hemisphere of the first row.

@@ -5,10 +5,11 @@
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
-use motiondb::body::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+use motiondb::body::{Foot, JOINT_COUNT, Joint, Root, Side, Skeleton};
 use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::motion::{
-    Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord,
+    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters,
+    PhaseMap, Rows, SourceRecord,
 };
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
@@ -45,7 +46,9 @@ pub(crate) fn small_db() -> MotionDb {
             pairs_s: vec![[0.2, 0.8], [0.4, 0.1], [0.9, 0.6]],
         }),
         examples,
+        actions: Vec::new(),
     };
+    db.actions = vec![action(&db, ActionKind::Idle, 60), action(&db, ActionKind::Start, 72)];
     (0..db.examples.len()).for_each(|index| measure(&mut db, index));
     db
 }
@@ -62,6 +65,21 @@ fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> Mo
         planted_slide_cm_s: 0.0,
         planted_share: 1.0,
     }
+}
+
+/// An action of the standing pose, whose root moves as its kind requires.
+fn action(db: &MotionDb, kind: ActionKind, last: usize) -> Action {
+    let end = |stands: bool| ActionEnd { example: u32::from(!stands), phase: 0.0 };
+    let [entry, exit] = kind.stands().map(end);
+    let root = |frame: usize| {
+        // A cubic from rest to the speed of the walk.
+        let (share, duration_s) = (frame as f32 / last as f32, last as f32 / 60.0);
+        let speed_mps = db.examples[exit.example as usize].parameters.speed_mps;
+        Root { position_m: Vec2::X * speed_mps * duration_s * 0.5 * share * share, facing_rad: 0.0 }
+    };
+    let frame = |frame: usize| ActionFrame { pose: db.rows.pose(0, 0), contacts: [1.0; 2], root: root(frame) };
+    let frames = (0..=last).map(frame).collect();
+    Action { name: kind.name().into(), kind, source: 0, window_s: [0.0, 1.0], mirrored: false, entry, exit, frames }
 }
 
 /// Fills in slide, planted share and key times from the rows.

@@ -53,6 +53,7 @@ pub(crate) fn test_db() -> MotionDb {
         velocity_hull: VelocityHull::default(),
         blend_space: BlendSpace::default(),
         correspondence: None,
+        actions: Vec::new(),
     };
     for index in 0..db.examples.len() {
         append_rows(&mut db, index);

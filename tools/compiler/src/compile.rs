@@ -10,6 +10,8 @@ use motiondb::motion::MotionDb;
 use motiondb::validate::first_broken;
 use rayon::prelude::*;
 
+use crate::action::idles::idles;
+use crate::action::joined_action::joined_actions;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
@@ -73,11 +75,13 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
 ///    of near-equal ones.
 /// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
-/// 4. Keep the windows that add to the set ([`crate::select`]).
-/// 5. Close the standing cycles with the period of m_sp; name all.
-/// 6. Limit the number of examples, add mirrors, sort by name.
-/// 7. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
-/// 8. Check every invariant of the database ([`motiondb::validate`]).
+/// 4. Cut the actions ([`crate::action`]).
+/// 5. Keep the windows that add to the set ([`crate::select`]).
+/// 6. Close the standing cycles with the period of m_sp; name all.
+/// 7. Limit the number of examples, add mirrors, sort by name.
+/// 8. Join the actions to the examples.
+/// 9. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
+/// 10. Check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
 /// If there are no clips, none gives an example, the chosen m_sp does not step, or the database is invalid.
@@ -107,10 +111,12 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let analyzed = set.analyzed();
     observer(CompileEvent::Stage("selection"));
     let unique = set.without_duplicates(&compared, analyzed);
+    let cut = idles(&set.clips, &unique, &set.body);
     let adding = windows_that_add(unique);
     let named = named_cycles(&set.clips, adding, &set.body)?;
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
-    let db = assemble(selected, &set.body, options.velocity_hull, observer);
+    let actions = joined_actions(cut, &selected.cycles, &set.body);
+    let db = assemble(selected, &actions, &set.body, options.velocity_hull, observer);
     observer(CompileEvent::Stage("validation"));
     valid(db)
 }

@@ -30,7 +30,7 @@
 //!
 //! # Chapters
 //! [`mod@compile`] lists the stages, one line each. In their order: [`input`] → [`read`] → [`rig`] → [`retarget`] with
-//! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`] → [`database`].
+//! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`], `action` → [`database`].
 //!
 //! Apart from them, [`character`] compiles the skinned figures that bodies wear.
 //!
@@ -39,6 +39,7 @@
 //! the ground, z up, right-handed; angles counter-clockwise seen from above. A body's frame: x forward, y left. Pairs
 //! of sides are `[left, right]`. (v_f, ω_t, ω_s) are forward speed, turn rate and speed to the left.
 
+mod action;
 pub mod character;
 mod checks;
 pub mod compile;

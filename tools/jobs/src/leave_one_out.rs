@@ -178,6 +178,7 @@ fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
         velocity_hull: db.velocity_hull.clone(),
         blend_space: triangulation::build(&examples.iter().map(|example| example.parameters).collect::<Vec<_>>()),
         correspondence: None,
+        actions: Vec::new(),
         examples,
     }
 }

@@ -44,6 +44,7 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
         velocity_hull: VelocityHull { turning_mps: corners, ..VelocityHull::default() },
         blend_space: BlendSpace { dimension, axis_ranges: [1.0, 0.0, 0.0], simplices, covered_share: 1.0 },
         correspondence: None,
+        actions: Vec::new(),
     }
 }
 

@@ -33,6 +33,7 @@ impl Body {
         let phase_before = motion.phase;
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
         motion.advance_phase(step.dt_s * rate_factor, context);
+        motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
         motion.select(&plan, command.step_state.walks_on(&reachable), context, step.dt_s);

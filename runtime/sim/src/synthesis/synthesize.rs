@@ -22,7 +22,7 @@ const SETTLING_S: f32 = 1.0;
 impl Body {
     /// A body that stands at `root`, with its cycle at `phase`, and its first output.
     pub fn standing(context: &SynthesisContext, root: Root, phase: f32) -> (Self, BodyOutput) {
-        let motion = MotionState::standing(&context.domain, phase);
+        let motion = MotionState::standing(context, phase);
         let posture = motion.active(context).posture(context, phase);
         let contact = ContactState::standing(&posture, &root.frame(), &context.db.skeleton);
         let (command, look_at) = (CommandState::standing(), LookAt::default());

@@ -5,9 +5,12 @@
 //! 2. Put the clip, and the windows of the gait, on the target body.
 //! 3. Close each window into a steady cycle, or find why it is unfit ([`crate::cycle::steady_cycle`]).
 
+use std::ops::Range;
+
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
 
+use crate::cycle::flaws::standing_flaws;
 use crate::cycle::mean_stride::mean_stride;
 use crate::cycle::steady_cycle::SteadyCycle;
 use crate::gait::foot_stance::FootStance;
@@ -28,6 +31,8 @@ pub(crate) struct AnalyzedClip {
     pub(crate) frame_count: usize,
     /// Steady windows, the longest first.
     pub(crate) windows: Vec<SteadyCycle>,
+    /// Frames of the clip in which the body stands, in order of time; of a loop within its middle round.
+    pub(crate) rests: Vec<Range<usize>>,
     /// Diagnostics of the clip as a whole.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Steady windows that give no example beside others.
@@ -53,7 +58,7 @@ impl AnalyzedClip {
         let grounded = performer.clip_on(clip, body);
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
         let found = found.map_err(|reason| not_upright(clip, frame_count).unwrap_or(reason));
-        let times = ClipTimes { first_frame: clip.first_frame, frame_count, frame_rate_hz: clip.frame_rate_hz };
+        let times = ClipTimes::of(clip, frame_count);
         let (mut windows, mut reasons) = (Vec::new(), Vec::new());
         match found {
             Ok(found) => {
@@ -73,16 +78,22 @@ impl AnalyzedClip {
             }
             Err(unfit) => reasons.push(unfit),
         }
+        let standing_flaws = standing_flaws(clip);
+        windows
+            .iter_mut()
+            .filter(|window| window.stepping().is_none())
+            .for_each(|window| window.flaws += standing_flaws);
+        let rests = performer.gait.rests;
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
             let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, diagnostics, left_out };
+            return Self { grounded, frame_count, windows, rests, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
         let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
         let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
-        Self { grounded, frame_count, windows, diagnostics, left_out }
+        Self { grounded, frame_count, windows, rests, diagnostics, left_out }
     }
 
     /// Duration from the first frame to the last, s.
@@ -126,7 +137,7 @@ fn longest_part(parts: &[LowPart]) -> Option<&LowPart> {
 }
 
 /// The frames of a clip in its file.
-struct ClipTimes {
+pub(crate) struct ClipTimes {
     /// Number of the file's frames before the first frame of the clip.
     first_frame: usize,
     /// Number of frames.
@@ -135,8 +146,13 @@ struct ClipTimes {
 }
 
 impl ClipTimes {
+    /// The frames of a clip that has, or had, so many.
+    pub(crate) fn of(clip: &HumanClip, frame_count: usize) -> Self {
+        Self { first_frame: clip.first_frame, frame_count, frame_rate_hz: clip.frame_rate_hz }
+    }
+
     /// Time of a frame of the clip, s from the file's first frame.
-    fn in_file_s(&self, frame: f64) -> f64 {
+    pub(crate) fn in_file_s(&self, frame: f64) -> f64 {
         let last_frame = (self.frame_count - 1) as f64;
         (self.first_frame as f64 + frame.clamp(0.0, last_frame)) / self.frame_rate_hz
     }

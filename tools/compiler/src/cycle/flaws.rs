@@ -3,16 +3,25 @@
 //!
 //! A sum without unit. Each term is 1 where it could hardly be worse.
 
+use motiondb::diagnostic::Diagnostic;
 use motiondb::quality::planted_feet::FootSlide;
 use motiondb::statistics::mean;
 
 use crate::cycle::rest::Rest;
 use crate::cycle::{foot_slide, rate_cells};
+use crate::gait::standing::STANDING_JOINT_SPEED_MPS;
 use crate::gait::stride::{STRIDE_GAP_M, Stride};
 use crate::ground::root_arc::Rates;
+use crate::retarget::human_clip::HumanClip;
 
 /// Duration of a rest as flawed as a lone stride, s.
 const REST_S: f64 = 1.0;
+/// Parts of the names of clips that show a body at ease.
+const STANDING_NAMES: [&str; 6] = ["idle", "stand", "breath", "rest", "wait", "neutral"];
+/// Flaws of a rest in a clip of another name: as much as arms that are half raised.
+const OTHER_NAME_FLAWS: f64 = 0.5;
+/// Flaws of a rest for each warning about its clip.
+const WARNING_FLAWS: f64 = 0.25;
 
 /// The flaws of a mean stride: the gap before it is closed, slide, distance from the middle of its cell
 /// ([`rate_cells`]), and fewness of strides.
@@ -24,8 +33,17 @@ pub(crate) fn flaws_of_strides(strides: &[Stride], rates: &Rates, slide: &FootSl
         + 1.0 / strides.len() as f64
 }
 
-/// The flaws of a rest: the longer it is, the calmer is its calmest part; arms that hang suit every crowd, an aimed gun
-/// none.
+/// The flaws of a rest: the longer it is, the calmer is its calmest part; arms that hang suit every crowd; a body that
+/// hardly stands still is none to stand like.
 pub(crate) fn flaws_of_rest(rest: &Rest) -> f64 {
-    REST_S / rest.duration_s + rest.arms_raised
+    REST_S / rest.duration_s + rest.arms_raised + rest.joint_speed_mps / STANDING_JOINT_SPEED_MPS
+}
+
+/// The flaws that every rest of a clip has: its name names another motion, and it has warnings.
+pub(crate) fn standing_flaws(clip: &HumanClip) -> f64 {
+    let name = clip.name.to_lowercase();
+    let is_named = STANDING_NAMES.iter().any(|word| name.contains(word));
+    let is_warning = |found: &&Diagnostic| matches!(found, Diagnostic::Warning(_));
+    let warnings = clip.source.diagnostics.iter().filter(is_warning).count() as f64;
+    if is_named { WARNING_FLAWS * warnings } else { OTHER_NAME_FLAWS + WARNING_FLAWS * warnings }
 }

@@ -1,11 +1,13 @@
 //! Figures of a rest: what a body that stands does with its arms, and how calm it is.
 //!
-//! Arms that hang make an idle; arms spread out make a bind pose, which no crowd stands in. World frame: metres,
-//! seconds.
+//! Arms that hang, are folded or rest on the hips make an idle. Arms spread out make a bind pose, raised ones an aimed
+//! gun: no crowd stands so. World frame: metres, seconds; angles in degrees.
 
 use std::ops::Range;
 
+use glam::DVec3;
 use motiondb::body::Joint;
+use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
 use crate::ground::grounded_clip::GroundedClip;
@@ -14,6 +16,17 @@ use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
+/// Least angle at which both straight arms point away from the trunk in a bind pose, degrees.
+const ARMS_OUT_DEG: f64 = 30.0;
+/// Greatest flexion of the elbow of a straight arm, degrees.
+const STRAIGHT_DEG: f64 = 25.0;
+/// Least angle of the higher arm off straight down in a raised one, degrees.
+const ARM_RAISED_DEG: f64 = 65.0;
+/// Shoulder, elbow and wrist of each arm.
+const ARMS: [[Joint; 3]; 2] = [
+    [Joint::LeftUpperArm, Joint::LeftForearm, Joint::LeftHand],
+    [Joint::RightUpperArm, Joint::RightForearm, Joint::RightHand],
+];
 
 /// Figures of a rest, means over its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,34 +37,76 @@ pub(crate) struct Rest {
     pub(crate) arms_raised: f64,
     /// Cosine between the shoulder line and the arm that is farther off it: 1 in a T-pose.
     pub(crate) arms_spread: f64,
+    /// Angle off straight down of straight arms that point aside, the lesser of both; 0 for other arms.
+    pub(crate) arms_out_deg: f64,
+    /// Angle off straight down of the higher wrist, seen from its shoulder.
+    pub(crate) higher_arm_deg: f64,
+    /// Speed of the joints, m/s.
+    pub(crate) joint_speed_mps: f64,
 }
 
 impl Rest {
     /// The figures of some frames of a clip.
     pub(crate) fn of(clip: &GroundedClip, frames: &Range<usize>, body: &HumanBody) -> Self {
         let step = frames.len().div_ceil(SAMPLES);
-        let joints: Vec<HumanJoints> =
-            frames.clone().step_by(step).map(|frame| clip.pose(frame).forward_kinematics(body)).collect();
-        let spread = |joints: &HumanJoints| arm_spread(|joint| joints.positions_m[joint.index()]);
+        let joints_at = |frame: usize| clip.pose(frame).forward_kinematics(body);
+        let joints: Vec<HumanJoints> = frames.clone().step_by(step).map(joints_at).collect();
+        let mean_of = |value: &dyn Fn(&HumanJoints) -> f64| mean(joints.iter().map(value)).unwrap_or_default();
+        let inner = frames.start..frames.end.saturating_sub(1);
+        let step_m = |frame: usize| joints_at(frame).mean_distance_m(&joints_at(frame + 1));
+        let steps_m = inner.step_by(step).map(step_m);
         Self {
             duration_s: (frames.len() - 1) as f64 / clip.frame_rate_hz,
-            arms_raised: mean(joints.iter().map(arms_raised)).unwrap_or_default(),
-            arms_spread: mean(joints.iter().map(spread)).unwrap_or_default(),
+            arms_raised: mean_of(&arms_raised),
+            arms_spread: mean_of(&|joints| arm_spread(|joint| joints.positions_m[joint.index()])),
+            arms_out_deg: mean_of(&arms_out_deg),
+            higher_arm_deg: mean_of(&|joints| ARMS.map(|arm| arm_deg(joints, arm)).into_iter().fold(0.0, f64::max)),
+            joint_speed_mps: mean(steps_m).unwrap_or_default() * clip.frame_rate_hz,
         }
     }
 
-    /// Whether the body stands in a T-pose.
-    pub(crate) fn is_t_pose(&self) -> bool {
-        self.arms_spread > SPREAD_COSINE
+    /// Why no crowd stands so; `None` for a body that stands at ease.
+    pub(crate) fn unfit(&self) -> Option<Unfit> {
+        match self {
+            rest if rest.arms_spread > SPREAD_COSINE => Some(Unfit::TPose),
+            rest if rest.arms_out_deg > ARMS_OUT_DEG => Some(Unfit::ArmsOut),
+            rest if rest.higher_arm_deg > ARM_RAISED_DEG => Some(Unfit::ArmRaised),
+            _ => None,
+        }
     }
+}
+
+fn position_m(joints: &HumanJoints, joint: Joint) -> DVec3 {
+    joints.positions_m[joint.index()]
 }
 
 /// Height of the wrists over the shoulders, arm lengths, plus 1; mean of both arms.
 fn arms_raised(joints: &HumanJoints) -> f64 {
-    let height = |[shoulder, wrist]: [Joint; 2]| {
-        let [shoulder_m, wrist_m] = [shoulder, wrist].map(|joint| joints.positions_m[joint.index()]);
-        (wrist_m - shoulder_m).normalize_or_zero().z
-    };
-    let [left, right] = [[Joint::LeftUpperArm, Joint::LeftHand], [Joint::RightUpperArm, Joint::RightHand]].map(height);
+    let [left, right] = ARMS
+        .map(|[shoulder, _, wrist]| (position_m(joints, wrist) - position_m(joints, shoulder)).normalize_or_zero().z);
     1.0 + 0.5 * (left + right)
+}
+
+/// Angle off straight down of a wrist, seen from its shoulder, degrees.
+fn arm_deg(joints: &HumanJoints, [shoulder, _, wrist]: [Joint; 3]) -> f64 {
+    angle_deg(position_m(joints, wrist) - position_m(joints, shoulder), DVec3::NEG_Z)
+}
+
+/// Angle off straight down of straight arms that point aside, the lesser of both; 0 for other arms.
+fn arms_out_deg(joints: &HumanJoints) -> f64 {
+    let [left, right] = ARMS.map(|[shoulder, _, _]| position_m(joints, shoulder));
+    let to_left = (left - right).with_z(0.0).normalize_or_zero();
+    let out_deg = |[shoulder, elbow, wrist]: [Joint; 3], outward: DVec3| {
+        let [upper, fore] =
+            [[shoulder, elbow], [elbow, wrist]].map(|[from, to]| position_m(joints, to) - position_m(joints, from));
+        let arm = upper + fore;
+        let (aside_m, ahead_m) = (arm.dot(outward), arm.dot(DVec3::Z.cross(outward)));
+        let is_straight = angle_deg(upper, fore) < STRAIGHT_DEG && ahead_m.abs() < aside_m;
+        if is_straight { libm::atan2(aside_m, -arm.z).to_degrees().max(0.0) } else { 0.0 }
+    };
+    out_deg(ARMS[0], to_left).min(out_deg(ARMS[1], -to_left))
+}
+
+fn angle_deg(a: DVec3, b: DVec3) -> f64 {
+    libm::acos(a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0)).to_degrees()
 }

@@ -101,7 +101,7 @@ impl PositionsNear {
 }
 
 /// Direction of the mean of all facing vectors, rad.
-fn mean_facing_rad(window: &[HumanJoints]) -> f64 {
+pub(crate) fn mean_facing_rad(window: &[HumanJoints]) -> f64 {
     let sum: DVec2 = window
         .iter()
         .map(|joints| {

@@ -78,7 +78,7 @@ impl SteadyCycle {
     /// The steady cycle of frames in which the body stands.
     ///
     /// # Errors
-    /// If the pelvis leaves its legs, or the body stands in a T-pose.
+    /// If the pelvis leaves its legs, or the arms are spread or raised.
     pub(crate) fn of_rest(
         clip: &GroundedClip,
         frames: &Range<usize>,
@@ -90,8 +90,8 @@ impl SteadyCycle {
             return Err(Unfit::PelvisOutOfReach);
         }
         let rest = Rest::of(clip, frames, body);
-        if rest.is_t_pose() {
-            return Err(Unfit::TPose);
+        if let Some(unfit) = rest.unfit() {
+            return Err(unfit);
         }
         let flaws = flaws_of_rest(&rest);
         let motion = SteadyMotion::Stands(frames.clone());

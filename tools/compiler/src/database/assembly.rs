@@ -5,6 +5,8 @@
 use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
 
+use crate::action::joined_action::JoinedAction;
+use crate::database::actions::actions as stored_actions;
 use crate::database::coincident_examples::{blend_space_of_best, coincident_pairs, note_coincident};
 use crate::database::example::motion_example;
 use crate::database::rows::rows;
@@ -18,10 +20,11 @@ use crate::select::named_cycles::SelectedCycles;
 /// # Steps
 /// 1. (v_f, ω_t, ω_s), key times and slide of each example.
 /// 2. Blend space; the best of coincident examples is its corner.
-/// 3. Skeleton, velocity sets, rows.
+/// 3. Skeleton, velocity sets, rows, actions.
 /// 4. m_sp, m_mb and correspondence times.
 pub(crate) fn assemble(
     selected: SelectedCycles,
+    actions: &[JoinedAction],
     body: &HumanBody,
     construction: Construction,
     observer: &Observer,
@@ -35,9 +38,11 @@ pub(crate) fn assemble(
     let blend_space = blend_space_of_best(&parameters, &flaws);
     note_coincident(&coincident_pairs(&parameters, &blend_space), &examples, &mut sources);
     observer(CompileEvent::Stage("assembly"));
+    let action_poses = actions.iter().flat_map(|action| &action.frames).map(|frame| &frame.pose);
     let mut db = MotionDb {
-        skeleton: skeleton(body, cycles.iter().map(|named| &named.cycle)),
+        skeleton: skeleton(body, cycles.iter().flat_map(|named| &named.cycle.rows).chain(action_poses)),
         correspondence: None,
+        actions: cycles.first().map_or_else(Vec::new, |first| stored_actions(actions, &first.cycle.rows[0])),
         velocity_hull: velocity_hull::build(&parameters, construction),
         rows: rows(cycles.iter().map(|named| &named.cycle)),
         blend_space,

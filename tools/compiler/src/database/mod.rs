@@ -4,8 +4,9 @@
 //! [`motiondb::motion::MotionDb`].
 //!
 //! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`,
-//! `rows`.
+//! `rows`, `actions`.
 
+pub(crate) mod actions;
 pub(crate) mod assembly;
 pub(crate) mod coincident_examples;
 pub(crate) mod example;

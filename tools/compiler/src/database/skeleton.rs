@@ -1,19 +1,18 @@
-//! The skeleton of a database: bones, girths by stature, joint limits that hold every cycle.
+//! The skeleton of a database: bones, girths by stature, joint limits that hold every pose.
 //!
-//! Enters: the target body and the cycles of the examples. Leaves: [`motiondb::body::Skeleton`] in its rest pose (a
+//! Enters: the target body and the poses of examples and actions. Leaves: [`motiondb::body::Skeleton`] in its rest pose (a
 //! T-pose; x forward, y left, z up), metres, joint limits as rotation vectors in radians.
 
 use glam::{DQuat, DVec3, Vec3};
 use motiondb::body::{Foot, JOINT_COUNT, JOINT_RANGES_DEG, Joint, Skeleton};
 
-use crate::cycle::gait_cycle::GaitCycle;
 use crate::database::segment_radii::SEGMENT_RADII_PER_STATURE;
 use crate::ground::foot_grounding::lowest_sole_m;
 use crate::ground::rotations::rotation_vector;
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
-/// The skeleton of a body; its joint limits hold all cycles.
-pub(crate) fn skeleton<'a>(body: &HumanBody, cycles: impl Iterator<Item = &'a GaitCycle>) -> Skeleton {
+/// The skeleton of a body; its joint limits hold all poses.
+pub(crate) fn skeleton<'a>(body: &HumanBody, poses: impl Iterator<Item = &'a HumanPose>) -> Skeleton {
     let rest = HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::IDENTITY; JOINT_COUNT] }.forward_kinematics(body);
     let sole_m = lowest_sole_m(&rest, body, 0).min(lowest_sole_m(&rest, body, 1));
     let crown_m = rest.positions_m[Joint::Head.index()].z + body.segment_ends_m[Joint::Head.index()].z;
@@ -24,7 +23,7 @@ pub(crate) fn skeleton<'a>(body: &HumanBody, cycles: impl Iterator<Item = &'a Ga
         offsets_m,
         segment_ends_m: body.segment_ends_m.map(|end| end.as_vec3()),
         segment_radii_m: SEGMENT_RADII_PER_STATURE.map(|radius| (radius * stature_m) as f32),
-        limits_rad: limits_rad(cycles),
+        limits_rad: limits_rad(poses),
         feet: [0, 1].map(|side| {
             let [heel_m, ball_m, toe_tip_m] = body.soles_m[side].map(|point| point.as_vec3());
             Foot { heel_m, ball_m, toe_tip_m, measured_m: body.measured_m[side].map(|point| point.as_vec3()) }
@@ -37,10 +36,10 @@ pub fn body_skeleton(body: &HumanBody) -> Skeleton {
     skeleton(body, std::iter::empty())
 }
 
-/// Published joint ranges, widened where a cycle goes beyond them: limits never forbid what the clips do.
-fn limits_rad<'a>(cycles: impl Iterator<Item = &'a GaitCycle>) -> [[Vec3; 2]; JOINT_COUNT] {
+/// Published joint ranges, widened where a pose goes beyond them: limits never forbid what the clips do.
+fn limits_rad<'a>(poses: impl Iterator<Item = &'a HumanPose>) -> [[Vec3; 2]; JOINT_COUNT] {
     let mut limits = JOINT_RANGES_DEG.map(|range| range.map(|degrees| Vec3::from_array(degrees.map(f32::to_radians))));
-    for row in cycles.flat_map(|cycle| &cycle.rows) {
+    for row in poses {
         for (range, rotation) in limits.iter_mut().zip(&row.rotations) {
             let vector_rad = rotation_vector(*rotation).as_vec3();
             *range = [range[0].min(vector_rad), range[1].max(vector_rad)];
@@ -58,7 +57,7 @@ mod tests {
     fn limits_hold_every_row() {
         let clip = synthetic::walk("walk", SyntheticWalk::default());
         let cycle = cycle_of(&clip);
-        let skeleton = skeleton(&clip.body, std::iter::once(&cycle));
+        let skeleton = skeleton(&clip.body, cycle.rows.iter());
         for row in &cycle.rows {
             for (rotation, [least, greatest]) in row.rotations.iter().zip(skeleton.limits_rad) {
                 let vector_rad = rotation_vector(*rotation).as_vec3();

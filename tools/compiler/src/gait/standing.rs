@@ -29,8 +29,8 @@ pub(crate) fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
         && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
 }
 
-/// The longest rest within some frames of a clip that also moves; of several as long the first.
-pub(crate) fn longest_rest(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: Range<usize>) -> Option<Range<usize>> {
+/// The rests within some frames of a clip that also moves, in order of time.
+pub(crate) fn rests(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: Range<usize>) -> Vec<Range<usize>> {
     let still = still_frames(track);
     let rests: Vec<bool> = frames.clone().map(|frame| planted[0][frame] && planted[1][frame] && still[frame]).collect();
     let length_min = REST_MIN_S * track.frame_rate_hz;
@@ -38,9 +38,13 @@ pub(crate) fn longest_rest(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: 
         .into_iter()
         .filter(|rest| rest.len() as f64 > length_min)
         .map(|rest| frames.start + rest.start..frames.start + rest.end)
-        // The first of the longest: `max_by_key` alone would take the last.
-        .rev()
-        .max_by_key(ExactSizeIterator::len)
+        .collect()
+}
+
+/// The longest of some rests; of several as long the first.
+pub(crate) fn longest(rests: &[Range<usize>]) -> Option<&Range<usize>> {
+    // The first of the longest: `max_by_key` alone would take the last.
+    rests.iter().rev().max_by_key(|rest| rest.len())
 }
 
 /// Whether hips and joints are at rest about each frame.

@@ -60,6 +60,8 @@ pub struct GaitAnalysis {
     pub stances: [[Vec<FootStance>; 2]; LENIENCES.len()],
     /// Steady parts, disjoint in time, the longest first and standing last; or why there is none.
     pub windows: Result<Vec<GaitWindow>, Unfit>,
+    /// Frames in which the body stands, in order of time; of a loop within its middle round.
+    pub rests: Vec<Range<usize>>,
     /// Why no window steps although the body makes steps; only of a clip whose windows all stand.
     pub lost_steps: Option<Unfit>,
 }
@@ -84,11 +86,13 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
     let planted = READINGS.map(|reading| {
         sides.each_mut().map(|side| left_out.without_frames(std::mem::take(&mut side.contacts[reading].planted)))
     });
-    let windows = gait_windows(&planted, &steps, &track, clip.loop_frames());
+    let rests = rests(&planted, &track, clip.loop_frames());
+    let windows = gait_windows(&planted, &steps, &rests, &track, clip.loop_frames());
+    let rests = rests.map_or_else(Vec::new, |(_, rests)| rests);
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());
     let lost_steps = lost_steps(&windows, &steps[0], &frames);
-    GaitAnalysis { stances, windows, lost_steps }
+    GaitAnalysis { stances, windows, rests, lost_steps }
 }
 
 /// Frames of a clip of which no window is made.
@@ -170,6 +174,7 @@ impl GaitAnalysis {
 fn gait_windows(
     planted: &[[Vec<bool>; 2]],
     steps: &[ClipSteps],
+    rests: &Option<(usize, Vec<Range<usize>>)>,
     track: &BodyTrack,
     loop_frames: Option<usize>,
 ) -> Result<Vec<GaitWindow>, Unfit> {
@@ -186,10 +191,24 @@ fn gait_windows(
         .into_iter()
         .map(|window| GaitWindow::stepping(aligned_strides(&window.strides, track), window.reading, before))
         .collect();
-    windows.extend(planted.iter().enumerate().find_map(|(reading, planted)| {
-        Some(GaitWindow::standing(standing::longest_rest(planted, track, frames.clone())?, reading, before))
+    windows.extend(rests.iter().filter_map(|(reading, rests)| {
+        Some(GaitWindow::standing(standing::longest(rests)?.clone(), *reading, before))
     }));
     if windows.is_empty() { Err(why_unsteady(&steps[0], &frames)) } else { Ok(windows) }
+}
+
+/// The rests of a clip by the strictest reading that shows one, and that reading. A clip that stands is one rest.
+fn rests(
+    planted: &[[Vec<bool>; 2]],
+    track: &BodyTrack,
+    loop_frames: Option<usize>,
+) -> Option<(usize, Vec<Range<usize>>)> {
+    let frames = searched_frames(track.frame_count(), loop_frames);
+    if let Some(reading) = planted.iter().position(|planted| standing::stands(planted, track)) {
+        return Some((reading, vec![frames]));
+    }
+    let of_readings = planted.iter().map(|planted| standing::rests(planted, track, frames.clone()));
+    of_readings.enumerate().find(|(_, rests)| !rests.is_empty())
 }
 
 /// The frames of a clip in which windows are searched. A loop that is not steady is a capture that ends as it began: its

@@ -90,7 +90,7 @@ pub(crate) fn named_cycles(
 }
 
 /// The name of a clip's window: the first has the clip's own.
-fn window_name(clip: &HumanClip, frame_count: usize, index: usize, window_s: [f64; 2]) -> String {
+pub(crate) fn window_name(clip: &HumanClip, frame_count: usize, index: usize, window_s: [f64; 2]) -> String {
     if index == 0 {
         return clip.name.clone();
     }

@@ -34,6 +34,19 @@ impl PoseWeights {
         )
     }
 
+    /// The blended pose, in which the pose of an idle takes the place of the examples that stand; `idle` gives it where
+    /// any does.
+    pub(crate) fn pose_with_idle(&self, db: &MotionDb, phase: f32, idle: impl FnOnce() -> Option<Pose>) -> Pose {
+        let stands = |example: u32| db.examples[example as usize].key_times_s.is_none();
+        let standing: f32 = self.entries().iter().filter(|entry| stands(entry.0)).map(|&(_, weight)| weight).sum();
+        let Some(idle) = (standing > 0.0).then(idle).flatten() else { return self.pose(db, phase) };
+        let (rows, shares) = rows_at(phase);
+        let steps = self.entries().iter().filter(|entry| !stands(entry.0));
+        let rows =
+            steps.flat_map(|&(example, weight)| [0, 1].map(|row| (example as usize, rows[row], weight * shares[row])));
+        db.rows.blended_with(&idle, standing, rows)
+    }
+
     /// The blended contact Σ w_i·c_i of each foot, `[left, right]`.
     pub(crate) fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
         let (rows, shares) = rows_at(phase);

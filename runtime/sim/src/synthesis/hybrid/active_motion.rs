@@ -4,6 +4,7 @@
 
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::blending::{ExampleMix, PoseWeights};
+use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::pose::Posture;
 use crate::synthesis::semi_procedural::Deformation;
@@ -18,6 +19,8 @@ pub(crate) enum ActiveMotion<'a> {
         drawn: PoseWeights,
         /// Weights of the active mix, which give the contacts.
         current: PoseWeights,
+        /// The idle in which the body stands.
+        idle: IdleClock,
     },
     /// Semi-procedural locomotion as it is drawn.
     SemiProcedural(Deformation<'a>),
@@ -30,6 +33,7 @@ impl<'a> ActiveMotion<'a> {
         mode: Mode,
         smoothed: &SmoothedMotion,
         mix: &ExampleMix,
+        idle: IdleClock,
         phase: f32,
     ) -> Self {
         match (mode, &context.hybrid) {
@@ -39,6 +43,7 @@ impl<'a> ActiveMotion<'a> {
             _ => Self::Blending {
                 drawn: smoothed.mix.weights(&context.db, phase),
                 current: mix.weights(&context.db, phase),
+                idle,
             },
         }
     }
@@ -56,9 +61,11 @@ impl<'a> ActiveMotion<'a> {
     pub(crate) fn posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
         let db = &context.db;
         match self {
-            Self::Blending { drawn, current } => {
-                Posture::new(drawn.pose(db, phase), current.contacts(db, phase), &db.skeleton)
-            }
+            Self::Blending { drawn, current, idle } => Posture::new(
+                drawn.pose_with_idle(db, phase, || idle.pose(db)),
+                current.contacts(db, phase),
+                &db.skeleton,
+            ),
             Self::SemiProcedural(deformation) => deformation.posture(db, phase),
         }
     }

@@ -5,11 +5,12 @@
 use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::blending::example_mix::advanced_phase;
-use crate::synthesis::blending::{BlendDomain, ExampleMix, Reachable};
+use crate::synthesis::blending::{ExampleMix, Reachable};
 use crate::synthesis::command::acceleration_limit::limited_by_axis;
 use crate::synthesis::command::phase_catch_up::PhaseCatchUp;
 use crate::synthesis::command::{CommandState, weight_transition};
 use crate::synthesis::hybrid::active_motion::ActiveMotion;
+use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::inertialization::Inertialization;
 use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
@@ -34,14 +35,16 @@ pub struct MotionState {
     pub(crate) phase_catch_up: PhaseCatchUp,
     /// What is drawn of the motion: after this step, and after the last.
     pub smoothed: [SmoothedMotion; 2],
+    /// The idle in which the body stands.
+    pub(crate) idle: IdleClock,
     /// Difference of poses that a switch has left.
     pub(crate) inertialization: Inertialization,
 }
 
 impl MotionState {
-    /// The motion of a body that stands.
-    pub(crate) fn standing(domain: &BlendDomain, phase: f32) -> Self {
-        let mix = ExampleMix::new(&domain.standing.shares);
+    /// The motion of a body that stands. The phase, in [0, 1), is also the draw of its idle.
+    pub(crate) fn standing(context: &SynthesisContext, phase: f32) -> Self {
+        let mix = ExampleMix::new(&context.domain.standing.shares);
         Self {
             mode: Mode::Blending,
             selection: ModeSelection::BLENDING,
@@ -50,6 +53,7 @@ impl MotionState {
             phase,
             phase_catch_up: PhaseCatchUp::default(),
             smoothed: [SmoothedMotion::standing(mix); 2],
+            idle: IdleClock::drawn(&context.db, phase),
             inertialization: Inertialization::default(),
         }
     }
@@ -70,7 +74,7 @@ impl MotionState {
 
     /// The active motion at the present phase, as it is drawn.
     pub(crate) fn active<'a>(&self, context: &'a SynthesisContext) -> ActiveMotion<'a> {
-        ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.phase)
+        ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.idle, self.phase)
     }
 
     /// The target toward which the motion moves: the command, as far as the active mode and the selected one reach

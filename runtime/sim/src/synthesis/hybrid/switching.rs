@@ -88,7 +88,7 @@ impl MotionState {
     /// speed, is most similar a little earlier or later.
     fn most_similar_phase(&self, soles_m: &[[Vec3; 3]; 2], near: f32, context: &SynthesisContext) -> f32 {
         let distance_m2 = |phase: f32| {
-            let active = ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, phase);
+            let active = ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.idle, phase);
             let there_m = active.posture(context, phase).soles_m(&context.db.skeleton);
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
@@ -120,7 +120,9 @@ impl MotionState {
         let earlier_phase = wrapped(self.phase - step.look_back_s * active.phase_rate_hz(self.phase));
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
-        let earlier = ActiveMotion::new(context, self.mode, &smoothed, &self.mix, earlier_phase);
+        let mut earlier_idle = self.idle;
+        earlier_idle.advance(&context.db, -step.look_back_s);
+        let earlier = ActiveMotion::new(context, self.mode, &smoothed, &self.mix, earlier_idle, earlier_phase);
         [active.bent_posture(context, self.phase).pose, earlier.bent_posture(context, earlier_phase).pose]
     }
 }
