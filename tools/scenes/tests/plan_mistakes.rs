@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::read_text;
+use support::{read_text, written};
 
 /// The error's text, from the name of the file on.
 fn check_error(name: &str, text: &str, expected: &str) {
@@ -36,4 +36,52 @@ fn a_drawing_that_ends_early_is_refused() {
 fn a_polyline_with_another_number_of_vertices_is_refused() {
     let message = "plan.dxf:16: the polyline states 5 vertices (group 90) and has 4; export the drawing anew";
     check_error("plan.dxf", &square(5), message);
+}
+
+/// A plan of 1.5 by 1 that states its coordinate system.
+fn located(crs: &str) -> String {
+    format!(
+        "{{\"type\": \"FeatureCollection\",\n \"crs\": {crs},\n \"features\": [{{\"type\": \"Feature\", \"properties\": {{}}, \"geometry\": \
+         {{\"type\": \"Polygon\", \"coordinates\": [[[9, 53], [10.5, 53], [10.5, 54], [9, 54], [9, 53]]]}}}}]}}"
+    )
+}
+
+/// A coordinate system as most programs name it.
+fn named(name: &str) -> String {
+    format!("{{\"type\": \"name\", \"properties\": {{\"name\": \"{name}\"}}}}")
+}
+
+#[test]
+fn a_coordinate_system_in_degrees_is_refused() {
+    for name in [
+        "urn:ogc:def:crs:OGC:1.3:CRS84",
+        "urn:ogc:def:crs:EPSG::4326",
+        "EPSG:4326",
+        "http://www.opengis.net/def/crs/OGC/1.3/CRS84",
+        "http://www.opengis.net/gml/srs/epsg.xml#4326",
+        "epsg:4258",
+    ] {
+        let message = format!(
+            "plan.geojson:2: the coordinates are degrees of {name}; project it to metres, for instance to the UTM zone of the \
+             place"
+        );
+        check_error("plan.geojson", &located(&named(name)), &message);
+    }
+    let old = located("{\"type\": \"EPSG\", \"properties\": {\"code\": 4326}}");
+    assert!(read_text("plan.geojson", &old).unwrap_err().to_string().contains("degrees of 4326"));
+}
+
+#[test]
+fn any_other_coordinate_system_is_noted() {
+    let check = |crs: &str, expected: &str| {
+        let (_, notes) = written(&read_text("plan.geojson", &located(crs)).unwrap());
+        assert_eq!(notes, [expected]);
+    };
+    check("null", "0: coordinates are taken as metres");
+    check(&named("urn:ogc:def:crs:EPSG::25832"), "2: coordinates of urn:ogc:def:crs:EPSG::25832 are taken as metres");
+    check("{\"type\": \"link\", \"properties\": {}}", "2: coordinates of a system without name are taken as metres");
+    check(
+        &named("EPSG:3857"),
+        "!2: coordinates of EPSG:3857 are taken as metres; this projection stretches lengths away from the equator",
+    );
 }
