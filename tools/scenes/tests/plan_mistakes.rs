@@ -85,3 +85,25 @@ fn any_other_coordinate_system_is_noted() {
         "!2: coordinates of EPSG:3857 are taken as metres; this projection stretches lengths away from the equator",
     );
 }
+
+#[test]
+fn degrees_are_named_before_all_other_mistakes() {
+    for side in [0.4, 0.05, 0.005, 0.0005] {
+        // A house in degrees has no area in square metres; the third coordinate is a mistake, too.
+        for third in ["", ", 7"] {
+            let [west, south, east, north] = [9.99, 53.55, 9.99 + side, 53.55 + side];
+            let plan = format!(
+                "{{\"type\": \"GeometryCollection\", \"geometries\": [{{\"type\": \"Point\", \"coordinates\": [3, 3]}}, {{\"type\": \"MultiPolygon\", \"coordinates\": \
+                 [[[[{west}, {south}{third}], [{east}, {south}], [{east}, {north}], [{west}, {south}]]]]}}]}}"
+            );
+            check_error(
+                "plan.geojson",
+                &plan,
+                "plan.geojson:1: the plan is less than 0.5 m across, so its coordinates are degrees; project it to metres, for \
+                 instance to the UTM zone of the place",
+            );
+        }
+    }
+    let empty = read_text("plan.geojson", "{\"type\": \"Point\", \"coordinates\": [3, 3]}").unwrap_err();
+    assert!(empty.to_string().contains("there is no polygon"), "{empty}");
+}

@@ -44,6 +44,9 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
             features.filter_map(|(index, feature)| Some((path(index), feature.geometry.as_ref()?))).collect()
         }
     };
+    let mut positions_m = Vec::new();
+    geometries.iter().for_each(|(_, geometry)| collect_positions(&geometry.value, &mut positions_m));
+    check_metres(&positions_m).map_err(fault)?;
     for (mut path, geometry) in geometries {
         add(&geometry.value, &mut scene, &mut path, DEPTH_MAX).map_err(|(message, help)| {
             let message = if path.is_empty() { message } else { format!("{}: {message}", shown(&path)) };
@@ -54,7 +57,6 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
     if scene.walkable.is_empty() {
         return Err(fault(("there is no polygon".into(), help)));
     }
-    check_metres(&scene).map_err(fault)?;
     move_near_origin(&mut scene).map_err(fault)?;
     Ok(scene)
 }
@@ -79,13 +81,28 @@ fn note_coordinates(source: &SourceText, json: &GeoJson, scene: &mut Scene) -> R
 }
 
 /// GeoJSON states degrees; plans of rooms are drawn in metres all the same.
-fn check_metres(scene: &Scene) -> Result<(), PlanFault> {
-    let corners_m: Vec<Point> = scene.walkable.iter().flat_map(|walkable| walkable.polygon_m.clone()).collect();
-    let [low_m, high_m] = bounds_m(&corners_m);
-    if (0..2).all(|axis| high_m[axis] - low_m[axis] < DEGREES_M) {
+fn check_metres(positions_m: &[Point]) -> Result<(), PlanFault> {
+    let [low_m, high_m] = bounds_m(positions_m);
+    if !positions_m.is_empty() && (0..2).all(|axis| high_m[axis] - low_m[axis] < DEGREES_M) {
         return Err(("the plan is less than 0.5 m across, so its coordinates are degrees".into(), PROJECT_IT));
     }
     Ok(())
+}
+
+/// Collects x and y of all positions of polygons. The parser bounds the nesting.
+fn collect_positions(geometry: &GeometryValue, positions_m: &mut Vec<Point>) {
+    let mut add = |rings: &[Vec<Position>]| {
+        let first_two = |position: &Position| Some([*position.as_slice().first()?, *position.as_slice().get(1)?]);
+        positions_m.extend(rings.iter().flatten().filter_map(first_two));
+    };
+    match geometry {
+        GeometryValue::Polygon { coordinates } => add(coordinates),
+        GeometryValue::MultiPolygon { coordinates } => coordinates.iter().for_each(|rings| add(rings)),
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().for_each(|geometry| collect_positions(&geometry.value, positions_m));
+        }
+        _ => {}
+    }
 }
 
 /// Adds a geometry; on a mistake, the path leads to it.
