@@ -37,7 +37,7 @@ pub(crate) fn read_text(path: &Path) -> Result<SourceText, SceneError> {
     Ok(SourceText { path: path.to_owned(), text: String::from_utf8_lossy(&bytes).into_owned() })
 }
 
-/// The pairs of a text.
+/// The pairs of a text, to its EOF.
 pub(crate) fn pairs(source: &SourceText) -> Result<Vec<Pair<'_>>, SceneError> {
     let mut pairs = Vec::new();
     let mut lines = source.text.lines().enumerate();
@@ -55,6 +55,10 @@ pub(crate) fn pairs(source: &SourceText) -> Result<Vec<Pair<'_>>, SceneError> {
         };
         let Some((index, value)) = lines.next() else { break };
         pairs.push(Pair { code, value: value.trim(), line: index + 1 });
+    }
+    if !pairs.last().is_some_and(|pair| pair.code == 0 && pair.value == "EOF") {
+        let line = source.text.lines().count().max(1);
+        return Err(fault(source, line, "the drawing ends early, without EOF".into(), "export it anew"));
     }
     Ok(pairs)
 }

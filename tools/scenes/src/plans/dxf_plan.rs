@@ -26,6 +26,8 @@ const Y: i32 = 20;
 const LAYER: i32 = 8;
 /// Group code of flags; the lowest bit of a polyline's: it is closed.
 const FLAGS: i32 = 70;
+/// Group code of the number of vertices of an `LWPOLYLINE`.
+const VERTICES: i32 = 90;
 /// Group code of the bulge after a vertex: the tangent of a quarter of the arc's angle.
 const BULGE: i32 = 42;
 /// Group code of the z of the extrusion; a negative one mirrors x.
@@ -89,6 +91,8 @@ struct Polyline<'a> {
     line: usize,
     is_closed: bool,
     is_mirrored: bool,
+    /// Number of vertices that the drawing states.
+    stated: Option<f64>,
     /// Vertices, and the bulge of the edge behind each; in units of the drawing.
     vertices: Vec<(Point, f64)>,
 }
@@ -170,6 +174,7 @@ fn read_pair<'a>(
         ("LWPOLYLINE" | "POLYLINE", LAYER, _) => polyline.layer = value,
         ("LWPOLYLINE" | "POLYLINE", FLAGS, _) => polyline.is_closed = number()? as i64 & 1 == 1,
         ("LWPOLYLINE" | "POLYLINE", EXTRUSION_Z, _) => polyline.is_mirrored = number()? < 0.0,
+        ("LWPOLYLINE", VERTICES, _) => polyline.stated = Some(number()?),
         ("LWPOLYLINE", X, _) => polyline.vertices.push(([number()?, 0.0], 0.0)),
         ("VERTEX", X, Some((vertex, _))) => vertex[0] = number()?,
         ("LWPOLYLINE" | "VERTEX", Y, Some((vertex, _))) => vertex[1] = number()?,
@@ -180,7 +185,11 @@ fn read_pair<'a>(
 }
 
 fn add(source: &SourceText, polyline: &Polyline<'_>, metres: f64, scene: &mut Scene) -> Result<(), SceneError> {
-    let shown = scene.source.clone();
+    let (shown, count) = (scene.source.clone(), polyline.vertices.len());
+    if let Some(stated) = polyline.stated.filter(|stated| *stated != count as f64) {
+        let message = format!("the polyline states {stated} vertices (group 90) and has {count}");
+        return Err(fault(source, polyline.line, message, "export the drawing anew"));
+    }
     if !polyline.is_closed && !ends_where_it_begins(polyline) {
         scene.notes.add(&shown, polyline.line, "open polylines are left out; close them", true);
         return Ok(());

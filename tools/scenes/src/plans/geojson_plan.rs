@@ -4,15 +4,19 @@ use std::path::Path;
 use std::str::FromStr;
 
 use geojson::{GeoJson, Geometry, GeometryValue, Position};
+use motiondb::files::{Invalid, SourceText};
 
 use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::bounds_m;
 use crate::json_place::{JsonStep, place, shown};
+use crate::plans::coordinate_system::CoordinateSystem;
 use crate::plans::rings_of_plan::{PlanFault, move_near_origin, ring, walkable};
 use crate::scene::{Point, Scene};
 
 /// Extent below which a plan is surely in degrees, m: smaller than a room.
 const DEGREES_M: f64 = 0.5;
+/// How to mend a plan in degrees.
+const PROJECT_IT: &str = "project it to metres, for instance to the UTM zone of the place";
 /// Deepest nesting of collections.
 const DEPTH_MAX: usize = 16;
 
@@ -23,11 +27,12 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
     let mut scene = Scene { kind: "GeoJSON plan", source: name, ..Scene::default() };
     let fault = |(message, help): PlanFault| {
         let invalid = source.invalid(0..0, message, help);
-        SceneError::from(motiondb::files::Invalid { is_quotable: false, ..invalid })
+        SceneError::from(Invalid { is_quotable: false, ..invalid })
     };
     let help = "give a Polygon, MultiPolygon, or a collection or features of them";
     let json =
         GeoJson::from_str(&source.text).map_err(|error| fault((format!("this is no GeoJSON: {error}"), help)))?;
+    note_coordinates(&source, &json, &mut scene)?;
     let geometries: Vec<(Vec<JsonStep>, &Geometry)> = match &json {
         GeoJson::Geometry(geometry) => vec![(Vec::new(), geometry)],
         GeoJson::Feature(feature) => {
@@ -39,34 +44,65 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
             features.filter_map(|(index, feature)| Some((path(index), feature.geometry.as_ref()?))).collect()
         }
     };
+    let mut positions_m = Vec::new();
+    geometries.iter().for_each(|(_, geometry)| collect_positions(&geometry.value, &mut positions_m));
+    check_metres(&positions_m).map_err(fault)?;
     for (mut path, geometry) in geometries {
         add(&geometry.value, &mut scene, &mut path, DEPTH_MAX).map_err(|(message, help)| {
             let message = if path.is_empty() { message } else { format!("{}: {message}", shown(&path)) };
             let invalid = source.invalid(place(&source.text, &path), message, help);
-            SceneError::from(motiondb::files::Invalid { is_quotable: false, ..invalid })
+            SceneError::from(Invalid { is_quotable: false, ..invalid })
         })?;
     }
     if scene.walkable.is_empty() {
         return Err(fault(("there is no polygon".into(), help)));
     }
-    check_metres(&mut scene).map_err(fault)?;
     move_near_origin(&mut scene).map_err(fault)?;
     Ok(scene)
 }
 
-/// GeoJSON states degrees; plans of rooms are drawn in metres all the same.
-fn check_metres(scene: &mut Scene) -> Result<(), PlanFault> {
-    let corners_m: Vec<Point> = scene.walkable.iter().flat_map(|walkable| walkable.polygon_m.clone()).collect();
-    let [low_m, high_m] = bounds_m(&corners_m);
-    if (0..2).all(|axis| high_m[axis] - low_m[axis] < DEGREES_M) {
-        return Err((
-            "the plan is less than 0.5 m across, so its coordinates are degrees".into(),
-            "project it to metres, for instance to the UTM zone of the place",
-        ));
+/// Refuses a coordinate system in degrees; notes any other.
+fn note_coordinates(source: &SourceText, json: &GeoJson, scene: &mut Scene) -> Result<(), SceneError> {
+    let Some(CoordinateSystem { name, is_in_degrees, is_web_mercator }) = CoordinateSystem::of(json) else {
+        let shown = scene.source.clone();
+        scene.notes.add(&shown, 0, "coordinates are taken as metres", false);
+        return Ok(());
+    };
+    let at = place(&source.text, &[JsonStep::Key("crs")]);
+    if is_in_degrees {
+        let invalid = source.invalid(at, format!("the coordinates are degrees of {name}"), PROJECT_IT);
+        return Err(Invalid { is_quotable: false, ..invalid }.into());
     }
-    let source = scene.source.clone();
-    scene.notes.add(&source, 0, "coordinates are taken as metres", false);
+    let line = 1 + source.text[..at.start].matches('\n').count();
+    let stretch = if is_web_mercator { "; this projection stretches lengths away from the equator" } else { "" };
+    let shown = scene.source.clone();
+    scene.notes.add(&shown, line, format!("coordinates of {name} are taken as metres{stretch}"), is_web_mercator);
     Ok(())
+}
+
+/// GeoJSON states degrees; plans of rooms are drawn in metres all the same.
+fn check_metres(positions_m: &[Point]) -> Result<(), PlanFault> {
+    let [low_m, high_m] = bounds_m(positions_m);
+    if !positions_m.is_empty() && (0..2).all(|axis| high_m[axis] - low_m[axis] < DEGREES_M) {
+        return Err(("the plan is less than 0.5 m across, so its coordinates are degrees".into(), PROJECT_IT));
+    }
+    Ok(())
+}
+
+/// Collects x and y of all positions of polygons. The parser bounds the nesting.
+fn collect_positions(geometry: &GeometryValue, positions_m: &mut Vec<Point>) {
+    let mut add = |rings: &[Vec<Position>]| {
+        let first_two = |position: &Position| Some([*position.as_slice().first()?, *position.as_slice().get(1)?]);
+        positions_m.extend(rings.iter().flatten().filter_map(first_two));
+    };
+    match geometry {
+        GeometryValue::Polygon { coordinates } => add(coordinates),
+        GeometryValue::MultiPolygon { coordinates } => coordinates.iter().for_each(|rings| add(rings)),
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().for_each(|geometry| collect_positions(&geometry.value, positions_m));
+        }
+        _ => {}
+    }
 }
 
 /// Adds a geometry; on a mistake, the path leads to it.
