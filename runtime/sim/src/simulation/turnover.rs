@@ -7,7 +7,7 @@ use crate::agents::Removal;
 use crate::population::{AgentId, AgentLife};
 use crate::route::arrival::is_at_goal;
 use crate::scenario::ranges::{AGENTS_MAX, check_agent};
-use crate::scenario::{AgentSpec, AtGoal};
+use crate::scenario::{AgentSpec, AtGoal, SourceSpec};
 use crate::simulation::Simulation;
 
 /// Rounding of discs that are meant to touch, m.
@@ -126,6 +126,8 @@ impl Simulation {
         }
         let Some(position_m) = nearest else { return false };
         self.sources[source].has_appeared(group);
+        let of_state = || self.scenario.behaviour.start_facing_rad(spec.state, position_m);
+        let spec = SourceSpec { facing_rad: spec.facing_rad.or_else(of_state), ..spec };
         let agent = AgentSpec { group, pre_movement_s: first_begins_s, ..spec.agent(position_m) };
         self.bear(agent, Some(source as u32));
         true

@@ -260,3 +260,25 @@ fn agents_without_a_state_move_as_without_behaviour() {
     }
     assert!(simulations[0].frames()[0].root.position_m.distance(Vec2::new(-4.0, 0.0)) < 1.0);
 }
+
+#[test]
+fn agents_of_sources_are_born_facing_their_goal() {
+    let text = "
+        [goals.west]
+        areas = [{ point_m = [-8, 0] }]
+        [states.walk]
+        go = 'west'
+        [[sources]]
+        at_m = [0, 0]
+        schedule = [[0.5, 1]]
+        state = 'walk'
+        [[sources]]
+        at_m = [0, 3]
+        schedule = [[0.5, 1]]
+        state = 'walk'
+        facing_deg = 90
+    ";
+    let simulation = run(text, |_, _| {});
+    let facings_rad: Vec<f32> = simulation.population().agents.iter().map(|life| life.spec.facing_rad.abs()).collect();
+    assert_eq!(facings_rad, [std::f32::consts::PI, std::f32::consts::FRAC_PI_2]);
+}

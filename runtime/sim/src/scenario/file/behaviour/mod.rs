@@ -50,6 +50,7 @@ mod goal_tables;
 mod names;
 mod numbers;
 mod placed_fault;
+mod shared_goals;
 mod tables;
 mod transitions;
 

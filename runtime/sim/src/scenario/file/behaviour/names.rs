@@ -13,6 +13,7 @@ use crate::scenario::fault::{ScenarioPart, TableFault};
 use crate::scenario::file::behaviour::goal_tables::{choice, goal_sets, signal};
 use crate::scenario::file::behaviour::numbers::{DistributionValue, priority};
 use crate::scenario::file::behaviour::placed_fault::{At, Names, PlacedFault, check_count, fault};
+use crate::scenario::file::behaviour::shared_goals::share_goals;
 use crate::scenario::file::behaviour::tables::{
     BACK, BehaviourTables, FacingName, GoValue, RememberValue, RemoveName, RemoveValue, SetTable, StandTable,
     StateTable,
@@ -72,6 +73,7 @@ impl BehaviourTables {
         for (name, table) in states {
             resolved.push(resolving.state(name, table)?);
         }
+        share_goals(&mut resolved, states, |movement| resolving.is_queue(movement))?;
         let events = events.iter().map(|(name, table)| resolving.event(name, table)).collect::<Result<_, _>>()?;
         let behaviour = Behaviour {
             states: resolved,

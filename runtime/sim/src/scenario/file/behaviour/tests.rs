@@ -106,6 +106,27 @@ fn mistakes_are_shown_at_their_line() {
     check_refused("[states.a]\nstand = {}\nset = { radius_m = 40 }", 3, "within 0.1 and 1");
 }
 
+/// States of goals that share one another's choice, as `name = remember`.
+fn sharing(states: &[(&str, &str)]) -> String {
+    let state = |(name, remember): &(&str, &str)| format!("[states.{name}]\ngo = 'seat'\n{remember}\n");
+    "[goals.seat]\nareas = [{ point_m = [0, 0] }]\n".to_owned() + &states.iter().map(state).collect::<String>()
+}
+
+#[test]
+fn a_state_that_others_name_keeps_its_goal() {
+    let text = sharing(&[("again", "remember = 'back_in'"), ("back_in", "remember = 'sit'"), ("sit", "")]);
+    let memories = resolved(&text).unwrap().states.into_iter().map(|state| match state.movement {
+        Movement::Goals { memory, .. } => memory,
+        _ => None,
+    });
+    assert_eq!(memories.collect::<Vec<_>>(), [None, Some(3), Some(3), Some(3)]);
+    let circle = sharing(&[("a", "remember = 'b'"), ("b", "remember = 'a'")]);
+    check_refused(&circle, 5, "in a circle");
+    let stands = sharing(&[("a", "remember = 'b'")]) + "[states.b]\nstand = {}\n";
+    check_refused(&stands, 5, "state `b` has no goal that another state can share");
+    check_refused(&sharing(&[("a", "remember = 'follow_path'")]), 5, "state `follow_path` has no goal");
+}
+
 #[test]
 fn reserved_names_and_ends_are_refused() {
     check_refused("[states.back]\nstand = {}", 1, "every scenario has");
