@@ -19,6 +19,14 @@ pub enum SceneError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The scene exceeds a limit of scenario files.
+    #[error("{}: {what}; simplify the scene, or convert a part of it", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// What is too large, and the limit.
+        what: String,
+    },
     /// The name of the file states no format.
     #[error(
         "{}: its name states no format; name a file that ends in .xml (Menge), .wkt, .geojson, .json, .dxf or .scenario",

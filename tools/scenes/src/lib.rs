@@ -22,6 +22,7 @@
 mod error;
 mod geometry;
 mod json_place;
+mod limits;
 mod menge;
 mod plans;
 mod random;
@@ -32,6 +33,7 @@ pub mod write;
 use std::path::{Path, PathBuf};
 
 use crate::geometry::free_ground::move_to_free_ground;
+use crate::limits::check_limits;
 use crate::scene::Scene;
 
 pub use error::SceneError;
@@ -70,7 +72,7 @@ pub fn is_scene(path: &Path) -> bool {
 /// Reads a scene; the extension of its name states the format.
 ///
 /// # Errors
-/// Where a file cannot be read, or is wrong: the error states file, line and remedy.
+/// Where a file cannot be read, is wrong, or is too large for a scenario: the error states file, line and remedy.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<ReadScene, SceneError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let alone = |scene: Scene| (scene, vec![path.to_owned()]);
@@ -84,6 +86,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<ReadScene, SceneError>
         "dxf" => alone(plans::read_dxf(path, options.units)?),
         _ => return Err(SceneError::UnknownFormat { path: path.to_owned() }),
     };
+    check_limits(&scene, path)?;
     move_to_free_ground(&mut scene);
     Ok(ReadScene { scene, inputs })
 }

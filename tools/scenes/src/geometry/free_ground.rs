@@ -19,6 +19,8 @@ const RINGS: usize = 100;
 const TRIED_MAX: usize = 2_000_000;
 /// Tests of a point against an obstacle or corner for one scene at most; a minute.
 const TESTS_MAX: u64 = 5_000_000_000;
+/// Positions of a lattice that are tested for one group at most.
+const SITES_MAX: usize = 1_000_000;
 /// Displacement that changes what happens, m.
 const FAR_M: f64 = 0.5;
 /// Positions of an area, along each side, that are searched for free ground; as when a scenario is read.
@@ -168,8 +170,16 @@ impl<'a> FreeGround<'a> {
     fn free_starts(&mut self, agents: &mut SceneAgents, notes: &mut Notes) {
         let radius_m = agents.radius_max_m;
         let wall_radius_m = agents.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m));
+        let mut left_out = 0;
         let starts_m: Vec<Point> = match &agents.starts {
-            Starts::Spread { .. } => return,
+            Starts::Spread { shape, count } => {
+                let sites_m = self.sites_m(shape, radius_m, wall_radius_m);
+                // A scenario spreads the agents itself where there is room to spare.
+                let Some(sites_m) = sites_m.filter(|sites_m| sites_m.len() * 4 < count * 5) else { return };
+                left_out = count.saturating_sub(sites_m.len());
+                let kept = count - left_out;
+                (0..kept).map(|index| sites_m[index * sites_m.len() / kept]).collect()
+            }
             Starts::Grid(grid) => {
                 if self.has_room_for(grid, radius_m, wall_radius_m) {
                     let inflated_m = radius_m + grid.jitter_m * 2.0_f64.sqrt();
@@ -183,7 +193,7 @@ impl<'a> FreeGround<'a> {
         let is_free = |ground: &Self, at_m: Point| {
             ground.is_off_walls(at_m, wall_radius_m) && ground.is_off_agents(at_m, radius_m)
         };
-        let (mut kept_m, mut moved, mut left_out, mut far) = (Vec::new(), Vec::new(), 0, false);
+        let (mut kept_m, mut moved, mut far) = (Vec::new(), Vec::new(), false);
         for start_m in starts_m {
             let found_m = if is_free(self, start_m) { Some(start_m) } else { self.nearest(start_m, is_free) };
             let Some(at_m) = found_m else {
@@ -212,6 +222,27 @@ impl<'a> FreeGround<'a> {
         }
     }
 
+    /// The densest positions of a hexagonal lattice in a shape that are free; none where they are too many to test.
+    fn sites_m(&self, shape: &Shape, radius_m: f64, wall_radius_m: f64) -> Option<Vec<Point>> {
+        let [low_m, high_m] = shape_bounds_m(shape);
+        let (spacing_m, row_m) = (2.0 * radius_m + TOUCH_M, 3.0_f64.sqrt() * radius_m + TOUCH_M);
+        let [columns, rows] = [(0, spacing_m), (1, row_m)]
+            .map(|(axis, step_m)| ((high_m[axis] - low_m[axis]) / step_m).floor().min(1e6) as usize + 1);
+        if columns * rows > SITES_MAX || (columns * rows) as u64 * self.tests_a_point() as u64 > TESTS_MAX / 10 {
+            return None;
+        }
+        let at_m = |index: usize| {
+            let (column, row) = (index % columns, index / columns);
+            let aside_m = if row % 2 == 1 { radius_m } else { 0.0 };
+            [low_m[0] + aside_m + column as f64 * spacing_m, low_m[1] + row as f64 * row_m]
+        };
+        let is_free = |at_m: &Point| {
+            is_inside(shape, *at_m) && self.is_off_walls(*at_m, wall_radius_m) && self.is_off_agents(*at_m, radius_m)
+        };
+        let rounded = |at_m: Point| at_m.map(|metres| (metres * 1e5).round() / 1e5);
+        Some((0..columns * rows).map(at_m).map(rounded).filter(is_free).collect())
+    }
+
     /// Whether all agents of a grid have room wherever they are displaced.
     fn has_room_for(&self, grid: &Grid, radius_m: f64, wall_radius_m: f64) -> bool {
         let displaced_m = grid.jitter_m * 2.0_f64.sqrt();
@@ -224,23 +255,34 @@ impl<'a> FreeGround<'a> {
     }
 }
 
+/// Least and greatest corner of a shape.
+fn shape_bounds_m(shape: &Shape) -> [Point; 2] {
+    match shape {
+        Shape::Point(at_m) => [*at_m; 2],
+        Shape::Circle([x, y], radius_m) => [[x - radius_m, y - radius_m], [x + radius_m, y + radius_m]],
+        Shape::Rect(low_m, high_m) => [*low_m, *high_m],
+        Shape::Polygon(corners_m) => bounds_m(corners_m),
+    }
+}
+
+/// Whether a point lies in a shape.
+fn is_inside(shape: &Shape, at_m: Point) -> bool {
+    match shape {
+        Shape::Point(other_m) => *other_m == at_m,
+        Shape::Circle(centre_m, radius_m) => distance_m(at_m, *centre_m) <= *radius_m,
+        Shape::Rect(low_m, high_m) => (0..2).all(|axis| (low_m[axis]..=high_m[axis]).contains(&at_m[axis])),
+        Shape::Polygon(corners_m) => contains(corners_m, at_m),
+    }
+}
+
 /// Positions of a shape that are searched for free ground.
 fn positions_m(shape: &Shape) -> Vec<Point> {
-    let middle_m = shape.middle_m();
-    let lattice = |[low_m, high_m]: [Point; 2], is_inside: &dyn Fn(Point) -> bool| -> Vec<Point> {
-        let step = |axis: usize, index: usize| {
-            low_m[axis] + (high_m[axis] - low_m[axis]) * (index as f64 + 0.5) / LATTICE as f64
-        };
-        let all = (0..LATTICE * LATTICE).map(|index| [step(0, index % LATTICE), step(1, index / LATTICE)]);
-        all.filter(|&at_m| is_inside(at_m)).chain([middle_m]).collect()
-    };
-    match shape {
-        Shape::Point(at_m) => vec![*at_m],
-        Shape::Circle([x, y], radius_m) => {
-            let bounds_m = [[x - radius_m, y - radius_m], [x + radius_m, y + radius_m]];
-            lattice(bounds_m, &|at_m| distance_m(at_m, [*x, *y]) <= *radius_m)
-        }
-        Shape::Rect(low_m, high_m) => lattice([*low_m, *high_m], &|_| true),
-        Shape::Polygon(corners_m) => lattice(bounds_m(corners_m), &|at_m| contains(corners_m, at_m)),
+    if let Shape::Point(at_m) = shape {
+        return vec![*at_m];
     }
+    let [low_m, high_m] = shape_bounds_m(shape);
+    let step =
+        |axis: usize, index: usize| low_m[axis] + (high_m[axis] - low_m[axis]) * (index as f64 + 0.5) / LATTICE as f64;
+    let all = (0..LATTICE * LATTICE).map(|index| [step(0, index % LATTICE), step(1, index / LATTICE)]);
+    all.filter(|&at_m| is_inside(shape, at_m)).chain([shape.middle_m()]).collect()
 }

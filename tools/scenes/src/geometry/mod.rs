@@ -2,9 +2,11 @@
 //! metres.
 //!
 //! Enters: corners as a file lists them. Leaves: polygons that a scenario accepts, and starts apart from walls and each
-//! other. Read `polygon` first, then `walls` and `free_ground`.
+//! other. Read `polygon` first, then `walls`, `free_ground` and
+//! `inner_point`.
 
 pub(crate) mod free_ground;
+pub(crate) mod inner_point;
 pub(crate) mod polygon;
 pub(crate) mod rings;
 pub(crate) mod walls;

@@ -1,6 +1,7 @@
 //! The tables of profiles, agents and sources.
 
 use crate::scene::{Grid, Scene, SceneAgents, SceneSource, Shape, SourceTimes, Starts};
+use crate::write::example::example;
 use crate::write::text_file::TextFile;
 use crate::write::words::{commented, drawn, key, number, plain, point, quoted, shape};
 
@@ -96,18 +97,6 @@ fn grid_text(grid: &Grid) -> String {
     let jitter = if jitter_m > 0.0 { format!(", jitter_m = {}", number(jitter_m)) } else { String::new() };
     let (spacing, centre) = (number(spacing_m), point(centre_m));
     format!("grid = {{ columns = {columns}, rows = {rows}, spacing_m = {spacing}, centre_m = {centre}{jitter} }}")
-}
-
-/// What a scene without agents needs.
-fn example(scene: &Scene) -> String {
-    let place = scene.walkable.first().and_then(|walkable| walkable.polygon_m.first()).copied().unwrap_or_default();
-    format!(
-        "# The source states no agents. An example, in which they walk 5 m to the right of their start:\n\
-         # [[agents]]\n\
-         # grid = {{ columns = 3, rows = 3, spacing_m = 1, centre_m = {} }}\n\
-         # goal_offset_m = [5, 0]\n",
-        point(place)
-    )
 }
 
 /// The tables `[[sources]]`.
