@@ -53,7 +53,7 @@ fn leave_one_out_lists_examples_and_joints() {
 
 #[test]
 fn validate_follows_its_schema_and_lists_every_invariant() {
-    let database = repository().join("tests/golden/version_2.fbdb");
+    let database = repository().join("tests/golden/version_3.fbdb");
     let report = fbcrowd(&["validate", text(&database), "--json"]).expect_code(0).json();
     check_schema("validate", &report);
     assert_eq!(report["valid"], true);
@@ -65,6 +65,7 @@ fn validate_follows_its_schema_and_lists_every_invariant() {
         "rows_are_complete",
         "indices_are_in_range",
         "names_are_unique",
+        "actions_are_complete",
         "skeleton_is_a_body",
         "sources_are_finite",
         "windows_are_ordered",
@@ -72,11 +73,15 @@ fn validate_follows_its_schema_and_lists_every_invariant() {
         "phase_maps_rise",
         "rows_are_finite",
         "rotations_are_unit_and_aligned",
+        "action_frames_are_finite",
+        "action_rotations_are_unit_and_aligned",
         "cycles_close",
         "landmarks_are_mid_stances",
         "key_times_end_contacts",
         "planted_feet_slide_as_stored",
         "parameters_follow_from_the_motion",
+        "idles_are_loops",
+        "actions_meet_their_examples",
         "hulls_are_clockwise_and_convex",
         "hulls_wrap_their_examples",
         "half_planes_agree_with_the_hulls",

@@ -42,9 +42,15 @@ impl IdleClock {
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::TAU;
+    use std::sync::Arc;
+
+    use motiondb::body::Root;
     use motiondb::motion::{Action, ActionEnd, ActionFrame, ActionKind};
 
     use super::*;
+    use crate::planning::plan::Plan;
+    use crate::synthesis::{HmsParams, SynthesisContext};
     use crate::test_db::test_db;
 
     fn idle(last: usize) -> Action {
@@ -81,5 +87,40 @@ mod tests {
         assert!((clock.time_s - 0.5).abs() < 1e-6);
         clock.advance(&db, -1.0);
         assert!((clock.time_s - 1.5).abs() < 1e-6);
+    }
+
+    /// An idle of four seconds whose pelvis sways by 2 cm to both sides.
+    fn swaying() -> Action {
+        let mut idle = idle(240);
+        for (index, frame) in idle.frames.iter_mut().enumerate() {
+            frame.pose.pelvis_m.y += 0.02 * libm::sinf(TAU * (index % 240) as f32 / 240.0);
+        }
+        idle
+    }
+
+    #[test]
+    fn bodies_at_rest_sway_as_in_the_clip_each_in_its_own_time() {
+        let mut db = test_db();
+        db.actions = vec![swaying()];
+        let context = SynthesisContext::new(Arc::new(db), HmsParams::default());
+        let sways_m = |draw: f32| {
+            let plan = |_: f32, _: &Root| Plan { time_to_collision_s: f32::INFINITY, ..Plan::default() };
+            context.walk_alone(draw, 8.0, 1.0 / 60.0, plan, |_, output| {
+                let soles_m =
+                    output.pose.forward_kinematics(&context.db.skeleton).sole_points_m(&context.db.skeleton, 0);
+                (output.pose.pelvis_m.y, soles_m[1])
+            })
+        };
+        let [early, late] = [0.0, 0.25].map(sways_m);
+        for sways_m in [&early, &late] {
+            let of_pelvis = || sways_m.iter().map(|(pelvis_m, _)| *pelvis_m);
+            let range_m = of_pelvis().fold(f32::MIN, f32::max) - of_pelvis().fold(f32::MAX, f32::min);
+            assert!((range_m - 0.04).abs() < 0.002, "{range_m} m");
+            let steps_m = sways_m.windows(2).map(|pair| (pair[1].0 - pair[0].0).abs());
+            assert!(steps_m.fold(0.0, f32::max) < 1.2 * 0.02 * TAU / 240.0, "the pelvis jumps");
+            assert!(sways_m.iter().all(|(_, ball_m)| ball_m.distance(sways_m[0].1) < 1e-3), "a foot slides");
+        }
+        let apart_m = early.iter().zip(&late).map(|(early, late)| (early.0 - late.0).abs()).fold(0.0, f32::max);
+        assert!(apart_m > 0.02, "both sway alike, within {apart_m} m");
     }
 }

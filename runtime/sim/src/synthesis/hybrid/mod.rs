@@ -4,8 +4,8 @@
 //! Enters: a plan and a command. Leaves: the active motion and its pose.
 //!
 //! Read `motion_state` (the state of the active motion), then `mode_selection` and `switching`, then what keeps the
-//! pose continuous: `pose_smoothing` and `inertialization`; `active_motion` samples the pose in the active mode; `idle_clock` gives
-//! the pose of a body that stands.
+//! pose continuous: `pose_smoothing` and `inertialization`; `active_motion` samples the pose in the active mode;
+//! `idle_clock` gives the pose of a body that stands.
 
 pub(crate) mod active_motion;
 pub(crate) mod idle_clock;
