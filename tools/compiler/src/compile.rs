@@ -75,7 +75,7 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
 ///    of near-equal ones.
 /// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
-/// 4. Cut the actions ([`crate::action`]).
+/// 4. Cut the actions (`action`).
 /// 5. Keep the windows that add to the set ([`crate::select`]).
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
