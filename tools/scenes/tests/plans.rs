@@ -165,6 +165,38 @@ fn a_scenario_of_vadere_keeps_targets_and_sources() {
     check_refused("hall.scenario", "{}", "no scenario of Vadere");
 }
 
+#[test]
+fn a_scenario_of_vadere_keeps_seed_speeds_and_duration() {
+    let with = |from: &str, to: &str| {
+        assert!(VADERE.contains(from), "{from}");
+        VADERE.replacen(from, to, 1)
+    };
+    let seed = "\"useFixedSeed\": true, \"fixedSeed\": 77, \"finishTime\": 200.0";
+    check("hall.scenario", &with("\"finishTime\": 200.0", seed), &["duration_s = 200\nseed = 77\n"]);
+    let (written, _) =
+        written(&read_text("hall.scenario", &with("\"finishTime\": 200.0", &seed.replace("true", "false"))).unwrap());
+    assert!(!written.scenario.contains("seed"), "{}", written.scenario);
+    let long = with("\"finishTime\": 200.0", "\"finishTime\": 1e300");
+    check("hall.scenario", &long, &["duration_s = 86400\n", "!0: `finishTime` 1e300 s is cut to 86400 s"]);
+    let agents = "\"dynamicElements\": [ { \"position\": { \"x\": 13, \"y\": 5 }, \"targetIds\": [ 1 ], \"freeFlowSpeed\": 1.5 }, \
+                  { \"position\": { \"x\": 14, \"y\": 5 }, \"targetIds\": [ 1 ], \"freeFlowSpeed\": 99 },";
+    check(
+        "hall.scenario",
+        &with("\"dynamicElements\": [", agents),
+        &[
+            "inherits = \"pedestrian\"\npreferred_speed_mps = 1.5\n",
+            "preferred_speed_mps = 10\n",
+            "at_m = [13, 5]\nprofile = \"pedestrian_150_cm_per_s\"\n",
+            "at_m = [12, 5]\nprofile = \"pedestrian\"\n",
+        ],
+    );
+    check(
+        "hall.scenario",
+        &with("\"stairs\": [ {} ]", "\"measurementAreas\": [ {}, {} ]"),
+        &["!0: 2 measurement areas are left out; add them as [[measure]]"],
+    );
+}
+
 /// The error's whole text, without the folder.
 fn check_error(name: &str, text: &str, expected: &str) {
     let error = read_text(name, text).expect_err(text).to_string();

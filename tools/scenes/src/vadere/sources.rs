@@ -1,8 +1,8 @@
 //! Sources of agents, and agents that are there at the start.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{DrawnNumber, Point, Scene, SceneAgents, SceneSource, Shape, SourceTimes, Starts};
+use crate::scene::{DrawnNumber, Point, Scene, SceneAgents, SceneProfile, SceneSource, Shape, SourceTimes, Starts};
 use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_shape};
 use crate::vadere::targets::{Targets, drawn};
 use crate::vadere::vadere_file::{VadereSource, VadereTopography};
@@ -11,6 +11,8 @@ use crate::vadere::vadere_file::{VadereSource, VadereTopography};
 const AGENTS_MAX: f64 = 1e6;
 /// Rates that a scenario takes, agents per second.
 const RATES_PER_S: [f64; 2] = [1e-5, 1e3];
+/// Preferred speeds that a scenario takes, m/s.
+const SPEEDS_MPS: [f64; 2] = [0.1, 10.0];
 /// Greatest number of times that are written one by one.
 const BEATS_MAX: usize = 120;
 
@@ -27,6 +29,11 @@ struct Spawning {
     has_beat: bool,
 }
 
+/// What the agents of a group share: the list of targets, and a `freeFlowSpeed` of their own, cm/s.
+type TargetsAndSpeed<'a> = (&'a [i64], Option<u64>);
+/// Index of the first agent of a group, and the starts of all.
+type FirstAndStarts = (usize, Vec<Point>);
+
 /// Reads sources and single agents.
 pub(crate) fn read_sources(
     topography: &VadereTopography,
@@ -37,19 +44,39 @@ pub(crate) fn read_sources(
     for (index, source) in topography.sources.iter().enumerate() {
         read_source(source, radius_m, targets, scene).map_err(at_item("sources", index))?;
     }
-    // The first agent with a list of targets, and the starts of all.
-    let mut by_targets: BTreeMap<&[i64], (usize, Vec<Point>)> = BTreeMap::new();
+    let mut groups: BTreeMap<TargetsAndSpeed, FirstAndStarts> = BTreeMap::new();
     for (index, agent) in topography.dynamic_elements.iter().enumerate() {
         let at_m = agent.position.position_m();
         check_shape(&Shape::Point(at_m)).map_err(at_item("dynamicElements", index))?;
-        by_targets.entry(&agent.target_ids).or_insert((index, Vec::new())).1.push(at_m);
+        let speed = agent.free_flow_speed.filter(|speed_mps| *speed_mps > 0.0).map(hundredths);
+        groups.entry((&agent.target_ids, speed)).or_insert((index, Vec::new())).1.push(at_m);
     }
-    for (list, (first, starts_m)) in by_targets {
+    let speeds: BTreeSet<u64> = groups.keys().filter_map(|(_, speed)| *speed).collect();
+    scene.profiles.extend(speeds.into_iter().map(profile_of_speed));
+    for ((list, speed), (first, starts_m)) in groups {
         let state = targets.state(list, "an agent").map_err(at_item("dynamicElements", first))?;
         let starts = Starts::Points(starts_m);
-        scene.agents.push(agents(starts, state, radius_m, "dynamicElements"));
+        let profile = speed.map_or_else(|| PROFILE.to_owned(), |speed| profile_of_speed(speed).name);
+        let group = agents(starts, state, radius_m, "dynamicElements");
+        scene.agents.push(SceneAgents { profiles: vec![(profile, 1.0)], ..group });
     }
     Ok(())
+}
+
+/// A speed within those that a scenario takes, cm/s: fewer steps than a scenario takes profiles.
+fn hundredths(speed_mps: f64) -> u64 {
+    (speed_mps.clamp(SPEEDS_MPS[0], SPEEDS_MPS[1]) * 100.0).round() as u64
+}
+
+/// The profile of agents with a `freeFlowSpeed` of their own, cm/s.
+fn profile_of_speed(speed: u64) -> SceneProfile {
+    SceneProfile {
+        name: format!("{PROFILE}_{speed}_cm_per_s"),
+        inherits: Some(PROFILE.to_owned()),
+        preferred_speed_mps: Some(DrawnNumber::Constant(speed as f64 / 100.0)),
+        radius_m: None,
+        origin: "freeFlowSpeed".to_owned(),
+    }
 }
 
 fn agents(starts: Starts, state: Option<String>, radius_m: f64, origin: &str) -> SceneAgents {

@@ -12,10 +12,12 @@ use crate::scene::{DrawnNumber, Point, Scene, SceneObstacle, SceneProfile, Shape
 use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_points, corners_m};
 use crate::vadere::sources::read_sources;
 use crate::vadere::targets::Targets;
-use crate::vadere::vadere_file::{VadereFile, VadereTopography};
+use crate::vadere::vadere_file::{VadereFile, VadereSimulation, VadereTopography};
 
 /// Greatest number of obstacles, of targets and of sources.
 const ITEMS_MAX: usize = 10_000;
+/// Simulated times that a scenario takes, s.
+const DURATIONS_S: [f64; 2] = [0.1, 86_400.0];
 /// Releases whose files are tested.
 const TESTED: [&str; 2] = ["2.4", "3.0"];
 
@@ -29,12 +31,27 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
     if !TESTED.contains(&release) {
         scene.notes.add(&name, 0, format!("release {release:.20} is not tested; 2.4 and 3.0 are"), false);
     }
-    let finish_s = file.scenario.attributes_simulation.finish_time;
-    scene.duration_s = finish_s.filter(|finish_s| (0.1..=86_400.0).contains(finish_s));
+    read_simulation(&file.scenario.attributes_simulation, &mut scene);
     let topography = &file.scenario.topography;
     read_topography(topography, &mut scene).map_err(|fault| misplaced(&source, fault))?;
     note_unsupported(topography, &mut scene);
     Ok(scene)
+}
+
+fn read_simulation(simulation: &VadereSimulation, scene: &mut Scene) {
+    if let Some(finish_s) = simulation.finish_time {
+        let [least, greatest] = DURATIONS_S;
+        let duration_s = finish_s.clamp(least, greatest);
+        if duration_s != finish_s {
+            let source = scene.source.clone();
+            let what = format!("`finishTime` {finish_s:e} s is cut to {duration_s} s");
+            scene.notes.add(&source, 0, what, true);
+        }
+        scene.duration_s = Some(duration_s);
+    }
+    if simulation.use_fixed_seed {
+        scene.seed = simulation.fixed_seed.map(i64::unsigned_abs);
+    }
 }
 
 /// A mistake at the line of its item.
@@ -124,6 +141,7 @@ fn note_unsupported(topography: &VadereTopography, scene: &mut Scene) {
     note(topography.stairs.len(), "stairs are level ground");
     note(topography.target_changers.len(), "target changers are left out");
     note(topography.absorbing_areas.len(), "absorbing areas are left out");
+    note(topography.measurement_areas.len(), "measurement areas are left out; add them as [[measure]]");
     let is_set = |value: &&serde_json::Value| !value.is_null();
     note(topography.teleporter.iter().filter(is_set).count(), "teleporter is left out");
 }

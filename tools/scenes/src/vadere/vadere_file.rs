@@ -25,6 +25,8 @@ pub(crate) struct VadereScenario {
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct VadereSimulation {
     pub(crate) finish_time: Option<f64>,
+    pub(crate) use_fixed_seed: bool,
+    pub(crate) fixed_seed: Option<i64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -45,6 +47,8 @@ pub(crate) struct VadereTopography {
     pub(crate) stairs: Vec<Value>,
     #[serde(default)]
     pub(crate) target_changers: Vec<Value>,
+    #[serde(default)]
+    pub(crate) measurement_areas: Vec<Value>,
     #[serde(default)]
     pub(crate) absorbing_areas: Vec<Value>,
     #[serde(default)]
@@ -190,6 +194,8 @@ pub(crate) struct VadereAgent {
     pub(crate) position: VaderePoint,
     #[serde(default)]
     pub(crate) target_ids: Vec<i64>,
+    /// Preferred speed of the agent, m/s; without it, or at zero, it is drawn.
+    pub(crate) free_flow_speed: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
