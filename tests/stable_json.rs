@@ -136,7 +136,7 @@ fn check_states_agents_passages_and_sizes() {
         format!("[[obstacles]]\npolygon_m = [[4, {low}], [4.2, {low}], [4.2, {high}], [4, {high}]]\n")
     };
     let walls = [wall(-9.0, -0.15), wall(0.15, 9.0)].concat();
-    let content = format!("database = 'none.fbdb'\nduration_s = 10\n{agents}{walls}");
+    let content = format!("duration_s = 10\n{agents}{walls}");
     fs::write(&scene, content).unwrap();
     let checked = fbcrowd(&["check", text(&scene), "--json", "--plot", text(&plot)]).expect_code(0).json();
     check_schema("check", &checked);
@@ -149,6 +149,30 @@ fn check_states_agents_passages_and_sizes() {
     let printed = fbcrowd(&["check", text(&scene)]).expect_code(0).stdout;
     assert!(printed.contains("closed passage   [4.00, 0.00], 0.30 m wide"), "{printed}");
     fbcrowd(&["check", text(&scene), "--plot", text(&scene)]).expect_code(2).says(&["is also an input"]);
+    let jpg = folder.join("scene.jpg");
+    fbcrowd(&["check", text(&scene), "--plot", text(&jpg)]).expect_code(2).says(&["name one *.png"]);
+    assert!(!jpg.exists());
+}
+
+#[test]
+fn check_looks_for_the_files_of_a_scenario() {
+    let folder = folder("check_files");
+    let scene = folder.join("scene.toml");
+    let agents = "duration_s = 10\n[[agents]]\nat_m = [0, 0]\ngoals_m = [[8, 0]]\n";
+    fs::write(folder.join("broken.fbdb"), "no database").unwrap();
+    let camera = format!("{agents}[camera]\ngltf = 'none.glb'\n");
+    for (content, missing) in [
+        (format!("database = 'none.fbdb'\n{agents}"), "none.fbdb"),
+        (format!("database = 'broken.fbdb'\n{agents}"), "broken.fbdb"),
+        (format!("clips = 'none'\n{agents}"), "none"),
+        (format!("{agents}[[characters]]\nfile = 'none.fbchar'\n"), "none.fbchar"),
+        (camera, "none.glb"),
+    ] {
+        fs::write(&scene, content).unwrap();
+        fbcrowd(&["check", text(&scene)]).expect_code(2).says(&[missing]);
+    }
+    fs::write(&scene, agents).unwrap();
+    fbcrowd(&["check", text(&scene)]).expect_code(0);
 }
 
 #[test]

@@ -193,3 +193,20 @@ fn goals_that_zones_close_to_agents_are_named() {
     assert!(barred(&zone(", closed_in = [\"rest\"]"), inside).is_empty());
     assert!(barred(&zone(", closed_to = [\"staff\"]"), &format!("{inside}, {{ point_m = [5, 0] }}")).is_empty());
 }
+
+#[test]
+fn only_agents_that_can_enter_a_state_miss_its_goals() {
+    let path = folder("barred_reach").join("scene.toml");
+    let barred = |rest: &str| {
+        let states = "[goals.staff]\nareas = [{ rect_m = [1.5, -0.5, 2.5, 0.5] }]\n[goals.home]\nareas = [{ point_m = [-9, 0] }]\n\
+             [states.learn]\ngo = \"home\"\n[states.teach]\ngo = \"home\"\nthen = [{ when = { after_s = 5 }, to = \"rest\" }]\n\
+             [states.rest]\ngo = \"staff\"\n";
+        let agents = "[[agents]]\nat_m = [-9, 0]\nstate = \"teach\"\n[[agents]]\nat_m = [-9, 2]\nstate = \"learn\"\nprofile = \"staff\"\n";
+        let zones = zone(", closed_to = [\"staff\"]");
+        fs::write(&path, format!("zones = [{zones}]\n{HEAD}{states}{rest}{agents}")).unwrap();
+        read(&path).unwrap().0.barred_goals().len()
+    };
+    assert_eq!(barred(""), 0);
+    // An event moves all agents, also the pupil to whom the zone is closed.
+    assert_eq!(barred("[events.bell]\nwhen = { after_s = 5 }\nto = \"rest\"\n"), 1);
+}

@@ -210,6 +210,27 @@ impl Behaviour {
         self.states.iter().position(|state| state.name == name)
     }
 
+    /// Whether agents that begin in a state, by index, can come into each state, whatever the conditions.
+    pub(crate) fn reachable_from(&self, start: u32) -> Vec<bool> {
+        let mut is_reachable = vec![false; self.states.len()];
+        let mut open = vec![start];
+        while let Some(index) = open.pop() {
+            // Without states all agents follow their waypoints.
+            let Some(state) = self.states.get(index as usize).filter(|_| !is_reachable[index as usize]) else {
+                continue;
+            };
+            is_reachable[index as usize] = true;
+            open.extend(self.events.iter().filter_map(|event| event.moves(index)));
+            for transition in &state.transitions {
+                // `back` leads to a state that has been reached.
+                if let Target::States(states) = &transition.target {
+                    open.extend(states.iter().filter(|(_, weight)| *weight > 0.0).map(|(state, _)| *state));
+                }
+            }
+        }
+        is_reachable
+    }
+
     /// Names of the states that an agent would leave and enter again within one step, without end: each has a transition
     /// that always holds, and all its targets are such states.
     pub fn endless_states(&self) -> Vec<&str> {

@@ -12,14 +12,19 @@ pub(crate) fn signed_area_m2(corners_m: &[Vec2]) -> f64 {
 
 /// Whether edges touch only at common corners.
 pub(crate) fn is_simple(corners_m: &[Vec2]) -> bool {
+    self_contact_m(corners_m).is_none()
+}
+
+/// The first position at which edges touch elsewhere than at common corners, m.
+pub(crate) fn self_contact_m(corners_m: &[Vec2]) -> Option<DVec2> {
     let edges: Vec<[DVec2; 2]> = edges(corners_m).collect();
     let count = edges.len();
-    (0..count).all(|i| {
+    (0..count).find_map(|i| {
         let [before, at] = edges[i];
         let [_, after] = edges[(i + 1) % count];
         let folds_back = side(before, at, after) == 0.0 && (before - at).dot(after - at) >= 0.0;
-        let others = (i + 2..count).filter(|&j| (j + 1) % count != i);
-        !folds_back && !others.into_iter().any(|j| touch(edges[i], edges[j]))
+        let mut others = (i + 2..count).filter(|&j| (j + 1) % count != i);
+        folds_back.then_some(at).or_else(|| others.find_map(|j| contact_m(edges[i], edges[j])))
     })
 }
 
@@ -51,11 +56,15 @@ fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether two segments have a common point: each crosses the line of the other, or an end lies on the other segment.
-fn touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    let crossing = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+/// A common point of two segments, m: each crosses the line of the other, or an end lies on the other segment.
+fn contact_m([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
+    let (of_a, of_b) = (side(c, d, a), side(c, d, b));
+    if side(a, b, c) * side(a, b, d) < 0.0 && of_a * of_b < 0.0 {
+        return Some(a.lerp(b, of_a / (of_a - of_b)));
+    }
     let on = |a: DVec2, b: DVec2, c: DVec2| side(a, b, c) == 0.0 && (a - c).dot(b - c) <= 0.0;
-    crossing || on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)
+    let ends = [(on(a, b, c), c), (on(a, b, d), d), (on(c, d, a), a), (on(c, d, b), b)];
+    ends.into_iter().find_map(|(is_on, end)| is_on.then_some(end))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::time::Instant;
 use fbcrowd_sim::scenario::{ScenarioError, read};
 use glam::Vec2;
 
-use crate::support::{HEAD, check_rejected, scenario, write};
+use crate::support::{HEAD, ONE, check_rejected, scenario, write};
 
 #[test]
 fn wall_radius_is_at_most_the_radius() {
@@ -108,6 +108,32 @@ fn agents_start_apart_from_each_other_and_from_obstacles() {
         broad,
         "agent 0 with a wall radius of 0.60 m cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
     );
+}
+
+#[test]
+fn distributions_of_agents_belong_in_profiles() {
+    let drawn = "{ uniform = [1, 1.5] }";
+    let message = "write a distribution in `[profiles.NAME]`";
+    for key in ["preferred_speed_mps", "radius_m"] {
+        let keys = format!("at_m = [0, 0]\ngoals_m = [[5, 0]]\n{key} = {drawn}\n");
+        check_rejected("drawn_agents", &format!("{HEAD}[[agents]]\n{keys}"), drawn, message);
+        check_rejected("drawn_source", &format!("{HEAD}[[sources]]\nrate_per_s = 1\n{keys}"), drawn, message);
+    }
+    let text = "\"fast\"";
+    let agents = format!("agents = {{ at_m = [0, 0], goals_m = [[5, 0]], preferred_speed_mps = {text} }}");
+    check_rejected("word", &format!("{HEAD}{agents}"), text, "a number is expected here, not \"fast\"");
+    let whole = scenario("whole", "agents = { at_m = [0, 0], goals_m = [[5, 0]], preferred_speed_mps = 2 }");
+    assert_eq!(whole.agents[0].preferred_speed_mps, 2.0);
+}
+
+#[test]
+fn lines_and_areas_that_are_measured_have_an_extent() {
+    let line = "[[measure]]\nname = \"l\"\nline_m = [[1, 0], [1, 0]]\n";
+    let message = "the length of the line is 0 m, less than 0.01 m";
+    match read(&write("no_line", &format!("{HEAD}{ONE}{line}"))) {
+        Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{invalid}"),
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]

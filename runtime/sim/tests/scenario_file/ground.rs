@@ -23,8 +23,8 @@ fn obstacles_must_be_simple_polygons() {
         check_rejected(test, &format!("{HEAD}{ONE}obstacles = [{obstacle}]"), &obstacle, message);
     };
     check("two_corners", "[[8, 8], [9, 9]]", "obstacle 0 has 2 corners");
-    check("bow_tie", "[[8, 8], [9, 9], [9, 8], [8, 9]]", "obstacle 0 crosses or touches itself");
-    check("repeated", "[[8, 8], [9, 8], [9, 9], [8, 8]]", "obstacle 0 crosses or touches itself");
+    check("bow_tie", "[[8, 8], [9, 9], [9, 8], [8, 9]]", "obstacle 0 crosses or touches itself at [8.50, 8.50]");
+    check("repeated", "[[8, 8], [9, 8], [9, 9], [8, 8]]", "obstacle 0 crosses or touches itself at [8.00, 8.00]");
     check("sliver", "[[8, 8], [9, 8], [8.5, 8.00001]]", "obstacle 0 has no area");
 }
 
@@ -45,7 +45,12 @@ fn walkable_ground_is_read_from_tables_and_wkt() {
 fn mistakes_of_the_ground_are_shown_at_their_table() {
     let walkable = |polygon: &str| format!("{HEAD}{ONE}[[walkable]]\npolygon_m = {polygon}\n");
     let part = "[[walkable]]";
-    check_rejected("bow", &walkable("[[-9, -9], [9, 9], [9, -9], [-9, 9]]"), part, "crosses or touches itself");
+    check_rejected(
+        "bow",
+        &walkable("[[-9, -9], [9, 9], [9, -9], [-9, 9]]"),
+        part,
+        "crosses or touches itself at [0.00, 0.00]",
+    );
     check_rejected("far", &walkable("[[-9, -9], [1e9, -9], [9, 9]]"), part, "not within 10 km");
     check_rejected("short", &walkable("[[-9, -9], [9, 9]]"), part, "has 2 corners");
     check_rejected("empty", &format!("{HEAD}{ONE}[[walkable]]\nholes_m = []\n"), part, "either `polygon_m` or `file`");

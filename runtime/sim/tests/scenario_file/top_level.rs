@@ -53,6 +53,17 @@ fn wrong_keys_and_types_are_shown_at_their_position() {
 }
 
 #[test]
+fn files_without_agents_state_what_is_missing() {
+    let error = |test: &str, text: &str| match read(&write(test, text)) {
+        Err(ScenarioError::Invalid(invalid)) => format!("{}; {}", invalid.message, invalid.help),
+        other => panic!("{other:?}"),
+    };
+    let none = error("no_agents", "duration_s = 5\n");
+    assert!(none.contains("the key `agents` is missing") && none.contains("[[sources]]"), "{none}");
+    assert!(error("empty", " \n").contains("the file is empty"));
+}
+
+#[test]
 fn numbers_out_of_range_are_shown_at_their_position() {
     check_rejected("dt", &format!("{HEAD}dt_s = 0\n{ONE}"), "0", "dt_s is 0");
     check_rejected("coarse", &format!("{HEAD}dt_s = 0.5\n{ONE}"), "0.5", "dt_s is 0.5");

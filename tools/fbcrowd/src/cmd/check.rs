@@ -2,10 +2,16 @@
 
 use std::path::PathBuf;
 
+use fbcrowd_jobs::camera_file;
+use fbcrowd_jobs::character::ScenarioCharacters;
+use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::output_path::{check_file, check_is_no_input};
 use fbcrowd_jobs::scene_check::check_scene;
-use fbcrowd_sim::scenario;
+use fbcrowd_sim::scenario::{self, MotionSource};
+use motiondb::files::database_file;
 
+use crate::cmd::outside_arg::OutsideArg;
+use crate::cmd::png_path::check_is_png;
 use crate::report::crowd::scene_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -14,7 +20,9 @@ use crate::terminal::output;
 ///
 /// The picture shows walls, the mesh that routes use, the route of each agent, sources, goals and closed passages.
 ///
-/// Exit code 0: the scenario can be simulated; 2: it has a mistake, which is shown at its line.
+/// Files that it names are read, too: database, manifest of clips, characters and cameras. It need not name a motion.
+///
+/// Exit code 0: the scenario can be simulated; 2: it has a mistake, which is shown at its line, or one of its files has.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd check assets/scenarios/tradeshow.toml\n  fbcrowd check my/scene.toml --plot scene.png --json"
@@ -29,13 +37,23 @@ pub(crate) struct Args {
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    outside: OutsideArg,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, _) = scenario::read(&args.scenario)?;
+    let (mut scenario, motion) = scenario::read(&args.scenario)?;
+    if scenario::names_motion(&args.scenario)? {
+        check_motion(motion?)?;
+    }
+    let camera_files = camera_file::files(&scenario, &args.scenario);
+    camera_file::resolve(&mut scenario, &args.scenario, args.outside.into())?;
+    let characters = ScenarioCharacters::load(&args.scenario, &scenario, args.outside.into(), &|_| {})?;
     if let Some(plot) = &args.plot {
-        let inputs = [vec![args.scenario.clone()], scenario::agent_files(&args.scenario)?].concat();
+        let agent_files = scenario::agent_files(&args.scenario)?;
+        let inputs = [vec![args.scenario.clone()], agent_files, camera_files, characters.files].concat();
         check_is_no_input(plot, &inputs)?;
+        check_is_png(plot)?;
         check_file(plot)?;
     }
     let check = check_scene(scenario)?;
@@ -49,4 +67,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         output::print(&scene_text::text(&check.figures))?;
     }
     Ok(Answer::Yes)
+}
+
+/// Checks that the motion of a scenario can be read: its database, or the list of its clips.
+fn check_motion(motion: MotionSource) -> Result<(), Failure> {
+    match motion {
+        MotionSource::Database(path) => database_file::load(&path).map(drop)?,
+        MotionSource::Clips(clips) => clip_paths::manifest(&[clips]).map(drop)?,
+    }
+    Ok(())
 }

@@ -25,7 +25,7 @@ use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::agent_area::AgentArea;
-use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::behaviour::{DistributionValue, fixed_number};
 use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::{ProfileValue, Profiles};
 use crate::scenario::point::Point;
@@ -49,8 +49,10 @@ pub(crate) struct AgentGroup {
     goals_m: Option<Vec<Point>>,
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,
+    #[serde(deserialize_with = "fixed_number")]
     radius_m: Option<f32>,
     wall_radius_m: Option<f32>,
+    #[serde(deserialize_with = "fixed_number")]
     preferred_speed_mps: Option<f32>,
     pre_movement_s: Option<DistributionValue>,
     profile: Option<Spanned<ProfileValue>>,

@@ -105,6 +105,14 @@ pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).chain(schedules).collect())
 }
 
+/// Whether a scenario file names a motion: clips or a database, which need not exist.
+///
+/// # Errors
+/// Where it cannot be read or is no scenario file.
+pub fn names_motion(path: &Path) -> Result<bool, ScenarioError> {
+    Ok(ScenarioFile::parse(&read_text(path)?)?.names_motion())
+}
+
 /// The files of the characters that a scenario file names, in the order of its characters.
 ///
 /// # Errors

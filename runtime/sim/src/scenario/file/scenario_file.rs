@@ -57,6 +57,8 @@ use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::shot_spec::ShotSpec;
 use crate::scenario::view::View;
 
+/// How to mend a scenario without agents.
+const NO_AGENTS: &str = "add `[[agents]]`, or `[[sources]]` for agents that come later";
 /// Keys by one of which a scenario file is recognised.
 const KEYS: [&str; 7] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner", "sources"];
 /// How to mend a scenario without motion.
@@ -124,10 +126,19 @@ pub(crate) struct ScenarioFile {
 
 impl ScenarioFile {
     pub(crate) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
+        if source.text.trim().is_empty() {
+            return Err(source
+                .invalid(0..0, "the file is empty", "write a scenario as docs/scenario.md shows it")
+                .into());
+        }
         let file: Self =
             toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?;
         if file.agents.is_none() && file.sources.is_empty() {
-            return Err(source.unparsed(None, "missing field `agents`", &KEYS).into());
+            let mut missing = source.unparsed(None, "missing field `agents`", &KEYS);
+            if missing.is_quotable {
+                NO_AGENTS.clone_into(&mut missing.help);
+            }
+            return Err(missing.into());
         }
         Ok(file)
     }
@@ -152,6 +163,11 @@ impl ScenarioFile {
             goals: std::mem::take(goals),
             states: std::mem::take(states),
         }
+    }
+
+    /// Whether the file names a motion, which need not exist.
+    pub(crate) fn names_motion(&self) -> bool {
+        self.clips.is_some() || self.database.is_some()
     }
 
     /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the

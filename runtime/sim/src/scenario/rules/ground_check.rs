@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use crate::maths::polygon::{is_simple, signed_area_m2};
+use crate::maths::polygon::{self_contact_m, signed_area_m2};
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::{check_points, within};
 use crate::scenario::resolved::Scenario;
@@ -89,8 +89,8 @@ fn check_polygon(part: &ScenarioPart, name: &str, polygon_m: &[Vec2], corners_ma
         };
         return wrong(format!("has {corners} corners"), help);
     }
-    if !is_simple(polygon_m) {
-        return wrong("crosses or touches itself".into(), IN_ORDER);
+    if let Some(at_m) = self_contact_m(polygon_m) {
+        return wrong(format!("crosses or touches itself at [{:.2}, {:.2}]", at_m.x, at_m.y), IN_ORDER);
     }
     if signed_area_m2(polygon_m).abs() < AREA_MIN_M2 {
         return wrong("has no area".into(), "give walls a thickness");

@@ -11,6 +11,8 @@ use crate::scenario::rules::behaviour_check::{FACTOR, check_area};
 const TABLES_MAX: usize = 1_000;
 /// Greatest number of different sets of zones that agents do not enter: each has walls and meshes of its own.
 const SETS_MAX: usize = 16;
+/// Least length of a line, and least extent of an area, that are measured, m.
+const EXTENT_MIN_M: f32 = 0.01;
 /// Least area of a zone that is closed to some agents, m².
 const AREA_MIN_M2: f64 = 1e-4;
 
@@ -29,18 +31,26 @@ pub(crate) fn check_measures(scenario: &Scenario) -> Result<(), ScenarioFault> {
             MeasuredPlace::Line(ends_m) => {
                 check_points(part, ends_m)?;
                 let length_m = ends_m[0].distance(ends_m[1]);
-                within(part, "the length of the line", length_m, &(0.01..=f32::MAX), "give two ends, in metres")?;
+                check_extent(part, "the length of the line", length_m, "give two ends, in metres")?;
             }
             MeasuredPlace::Area(area) => {
                 check_area(part, area)?;
                 let size_m = area.bounds_m();
                 let least_m = (size_m[1] - size_m[0]).min_element();
-                within(part, "the extent of the area", least_m, &(0.01..=f32::MAX), "give an area, in metres")?;
+                check_extent(part, "the extent of the area", least_m, "give an area, in metres")?;
             }
             MeasuredPlace::Egress => {}
         }
     }
     Ok(())
+}
+
+/// Checks a length that has a least value alone; coordinates limit it.
+fn check_extent(part: &ScenarioPart, name: &str, extent_m: f32, help: &'static str) -> Result<(), ScenarioFault> {
+    match extent_m >= EXTENT_MIN_M {
+        true => Ok(()),
+        false => part.fault(format!("{name} is {extent_m} m, less than {EXTENT_MIN_M} m"), help),
+    }
 }
 
 /// Checks areas and factors of zones.

@@ -10,6 +10,7 @@ use fbcrowd_render::png_frame;
 use fbcrowd_sim::recording::Recording;
 use motiondb::character::Character;
 
+use crate::cmd::png_path::check_is_png;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 
@@ -22,10 +23,8 @@ pub(super) fn path(output: Option<&Path>, plots: Option<&Path>) -> Result<Option
         return Err(Failure::bad("--plots draws databases; draw a character with --output PICTURE.png"));
     }
     let Some(path) = output else { return Ok(None) };
-    match path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
-        true => Ok(Some(path.to_owned())),
-        false => Err(Failure::bad(format!("{}: pictures of characters are PNG files; name one *.png", path.display()))),
-    }
+    check_is_png(path)?;
+    Ok(Some(path.to_owned()))
 }
 
 /// Checks that the picture can be written, and replaces none of the files that are read.

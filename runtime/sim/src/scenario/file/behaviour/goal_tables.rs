@@ -12,6 +12,8 @@ use crate::scenario::point::Point;
 
 /// Greatest number of areas of all goals.
 const AREAS_MAX: usize = 100_000;
+/// How to mend a capacity of 0.
+const CAPACITY_HELP: &str = "give a capacity of 1 or more, or remove the key: any number of agents";
 /// Greatest number of corners of all areas, 8 MB.
 const CORNERS_MAX: usize = 1_000_000;
 
@@ -56,6 +58,9 @@ fn goal_set(name: &str, table: &Spanned<GoalsTable>) -> Result<GoalSet, PlacedFa
         let message = format!("goals `{name}` have no areas");
         return Err(fault(&span, message, "add `areas = [{ point_m = [x, y] }]`"));
     }
+    if let Some(capacity) = goals.capacity.as_ref().filter(|capacity| *capacity.get_ref() == 0) {
+        return Err(fault(&capacity.span(), format!("the capacity of goals `{name}` is 0"), CAPACITY_HELP));
+    }
     let mut areas = Vec::with_capacity(count);
     for offset_m in offsets_m {
         for table in &goals.areas {
@@ -67,11 +72,14 @@ fn goal_set(name: &str, table: &Spanned<GoalsTable>) -> Result<GoalSet, PlacedFa
 
 fn goal_area(goals: &GoalsTable, table: &Spanned<GoalAreaTable>, offset_m: Vec2) -> Result<GoalArea, PlacedFault> {
     let (span, area) = (table.span(), table.get_ref());
-    let capacity = area.capacity.or(goals.capacity);
+    let capacity = area.capacity.or(goals.capacity.as_ref().map(|capacity| *capacity.get_ref()));
     let weight = area.weight.unwrap_or(1.0);
-    if capacity == Some(0) || !(0.0..=1e6).contains(&weight) {
-        let message = format!("the area has capacity {capacity:?} and weight {weight}");
-        return Err(fault(&span, message, "give a capacity of 1 or more, and a weight from 0 to a million"));
+    if area.capacity == Some(0) {
+        return Err(fault(&span, "the capacity of the area is 0".into(), CAPACITY_HELP));
+    }
+    if !(0.0..=1e6).contains(&weight) {
+        let message = format!("the weight of the area is {weight}");
+        return Err(fault(&span, message, "give a weight from 0 to a million"));
     }
     if goals.queue && capacity.is_some() {
         return Err(fault(&span, "a place of a queue takes one agent".into(), "remove `capacity`"));

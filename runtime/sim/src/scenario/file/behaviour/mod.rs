@@ -56,6 +56,6 @@ mod transitions;
 
 pub(crate) use area_table::{AreaKeys, AreaTable};
 pub(crate) use names::StateNames;
-pub(crate) use numbers::{DistributionValue, priority};
+pub(crate) use numbers::{DistributionValue, fixed_number, priority};
 pub(crate) use placed_fault::Names;
 pub(crate) use tables::{BehaviourTables, EventTable, GoalsTable, SignalTable, StateTable};

@@ -1,6 +1,9 @@
 //! Numbers that are fixed or drawn, as written: `1.3`, `{ uniform = [1, 2] }`, `{ normal = [1.3, 0.2], min = 0.5, max = 2 }`.
 
-use serde::Deserialize;
+use std::fmt;
+
+use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use crate::behaviour::Distribution;
 use crate::scenario::fault::TableFault;
@@ -52,11 +55,55 @@ impl DistributionValue {
             return Err((message, "write `normal = [mean, deviation]`, with finite numbers"));
         }
         let [min, max] = distribution.bounds();
-        if least <= min && min <= max && max <= greatest {
+        if let Distribution::Normal { mean, .. } = distribution {
+            if !(least..=greatest).contains(&mean) {
+                let message = format!("the mean of {name} is {mean}, not within {least} and {greatest}");
+                return Err((message, "give a mean in this range"));
+            }
+            // So few draws would lie within the limits that most agents had a limit itself.
+            if mean < min || mean > max {
+                let message = format!("the mean of {name} is {mean}, not between `min` and `max`");
+                return Err((message, "give a mean between the limits, or change these"));
+            }
+        }
+        if min > max {
+            return Err((format!("{name} falls from {min} to {max}"), "write the lower number first"));
+        }
+        if least <= min && max <= greatest {
             return Ok(distribution);
         }
-        let message = format!("{name} lies between {min} and {max}; it must rise, within {least} and {greatest}");
-        Err((message, "write the lower number first"))
+        let value = if min == max { format!("is {min}") } else { format!("lies between {min} and {max}") };
+        Err((format!("{name} {value}, not within {least} and {greatest}"), "give numbers in this range"))
+    }
+}
+
+/// A number that is the same for all agents of a table. A distribution is refused: it belongs in a profile.
+pub(crate) fn fixed_number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f32>, D::Error> {
+    deserializer.deserialize_any(FixedNumber).map(Some)
+}
+
+struct FixedNumber;
+
+impl<'de> Visitor<'de> for FixedNumber {
+    type Value = f32;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("f32")
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<f32, E> {
+        Ok(value as f32)
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<f32, E> {
+        Ok(value as f32)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<f32, A::Error> {
+        while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+        Err(A::Error::custom(
+            "a number is expected here; write a distribution in `[profiles.NAME]`, and `profile = \"NAME\"` here",
+        ))
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) struct SignalTable {
 pub(crate) struct GoalsTable {
     #[serde(default)]
     pub(crate) choose: ChooseValue,
-    pub(crate) capacity: Option<u32>,
+    pub(crate) capacity: Option<Spanned<u32>>,
     #[serde(default)]
     pub(crate) queue: bool,
     pub(crate) copies_m: Option<Vec<Point>>,

@@ -93,17 +93,33 @@ fn mistakes_are_shown_at_their_line() {
     check_refused("[goals.g]\nareas = []", 1, "have no areas");
     check_refused("[goals.g]\nareas = [{ point_m = [0, 0], rect_m = [0, 0, 1, 1] }]", 2, "exactly one of `point_m`");
     check_refused("[goals.g]\nareas = [{ polygon_m = [[0, 0], [1, 1], [1, 0], [0, 1]] }]", 2, "crosses");
-    check_refused("[goals.g]\nareas = [{ point_m = [0, 0], weight = -1 }]", 2, "weight -1");
+    check_refused("[goals.g]\nareas = [{ point_m = [0, 0], weight = -1 }]", 2, "the weight of the area is -1");
+    check_refused("[goals.g]\ncapacity = 0\nareas = [{ point_m = [0, 0] }]", 2, "the capacity of goals `g` is 0");
+    check_refused("[goals.g]\nareas = [{ point_m = [0, 0], capacity = 0 }]", 2, "the capacity of the area is 0");
     check_refused("[signals.s]\ngreen_s = 0\nred_s = 0", 1, "green for 0 s");
     check_refused(
         "[states.a]\nstand = {}\nthen = [{ when = { after_s = { uniform = [3, 1] } }, to = 'back' }]",
         3,
-        "rise",
+        "`after_s` falls from 3 to 1",
     );
+    check_refused(
+        "[states.a]\nstand = {}\nthen = [{ when = { after_s = -3 }, to = 'a' }]",
+        3,
+        "`after_s` is -3, not within",
+    );
+    check_refused(
+        "[states.a]\nstand = {}\nset = { radius_m = { uniform = [0.2, 5] } }",
+        3,
+        "lies between 0.2 and 5, not within 0.1 and 1",
+    );
+    for limits in ["min = 5, max = 6", "max = 1.2", "min = 1.4"] {
+        let set = format!("set = {{ preferred_speed_mps = {{ normal = [1.3, 0.01], {limits} }} }}");
+        check_refused(&format!("[states.a]\nstand = {{}}\n{set}"), 3, "is 1.3, not between `min` and `max`");
+    }
     check_refused("[states.a]\nstand = {}\nthen = [{ when = { soon = 1 }, to = 'back' }]", 3, "soon");
     check_refused("[states.a]\nstand = {}\nremember = true", 3, "only `go` to goals");
     check_refused("[states.a]\ngo = { mirror = [0, 0] }", 2, "`{ mirror_m = [x, y] }`");
-    check_refused("[states.a]\nstand = {}\nset = { radius_m = 40 }", 3, "within 0.1 and 1");
+    check_refused("[states.a]\nstand = {}\nset = { radius_m = 40 }", 3, "is 40, not within 0.1 and 1");
 }
 
 /// States of goals that share one another's choice, as `name = remember`.

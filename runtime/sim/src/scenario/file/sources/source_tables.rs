@@ -16,7 +16,7 @@ use crate::scenario::agent_spec::{AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RA
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::agent_placement::PlacementInput;
-use crate::scenario::file::behaviour::{AreaKeys, DistributionValue};
+use crate::scenario::file::behaviour::{AreaKeys, DistributionValue, fixed_number};
 use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::ProfileValue;
 use crate::scenario::file::sources::schedule_file::{read_schedule, schedule_path};
@@ -43,8 +43,10 @@ pub(crate) struct SourceTable {
     goals_m: Vec<Point>,
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,
+    #[serde(default, deserialize_with = "fixed_number")]
     radius_m: Option<f32>,
     wall_radius_m: Option<f32>,
+    #[serde(default, deserialize_with = "fixed_number")]
     preferred_speed_mps: Option<f32>,
     #[serde(default)]
     at_goal: AtGoal,
