@@ -1,9 +1,9 @@
 //! The motion database: examples of human motion, and everything that the offline compiler and the runtime share.
 //!
-//! A database holds closed, phase-aligned cycles of motion (the *examples*), recorded idles and transitions (the
-//! *actions*), the velocities at which a body can move
-//! with them ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times in the cycle at which
-//! synthesis can switch from one example to another ([`Correspondence`]). The file format is `.fbdb`.
+//! A database holds closed, phase-aligned cycles of motion (the *examples*), recorded motions that are no cycles (the
+//! *actions*), the velocities at which a body can move with them ([`VelocityHull`]), the simplices between them
+//! ([`BlendSpace`]) and the times in the cycle at which synthesis can switch from one example to another
+//! ([`Correspondence`]). The file format is `.fbdb`.
 //!
 //! Load a database, print its examples, blend a turn, and print the coverage gaps:
 //!

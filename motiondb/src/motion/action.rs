@@ -37,9 +37,6 @@ pub enum ActionKind {
 }
 
 impl ActionKind {
-    /// The kinds of transitions.
-    pub const TRANSITIONS: [Self; 5] = [Self::Start, Self::Stop, Self::Turn, Self::Step, Self::Pivot];
-
     /// The name in manifests and reports.
     pub const fn name(self) -> &'static str {
         match self {

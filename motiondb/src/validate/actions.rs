@@ -6,6 +6,7 @@ use crate::body::pose::Root;
 use crate::body::skeleton::Joint;
 use crate::motion::action::{ACTION_FRAMES_MAX, ACTION_RATE_HZ, Action, ActionEnd, ActionFrame, ActionKind};
 use crate::motion::motion_db::MotionDb;
+use crate::quality::planted_feet::PLANTED_CONTACT;
 use crate::validate::values::{UNIT_TOLERANCE, is_near_root};
 use crate::validate::{CheckResult, ensure};
 
@@ -26,8 +27,6 @@ const SEAM_MIN_RAD: f32 = 1e-3;
 const VELOCITY_TOLERANCE_MPS: f32 = 0.1;
 /// Greatest difference of the root's turn rate at an end from that of the example, rad/s.
 const TURN_RATE_TOLERANCE_RAD_S: f32 = 0.25;
-/// Least contact of a planted foot.
-const PLANTED_CONTACT: f32 = 0.5;
 
 /// Checks every action; a fault names it.
 fn each_action(db: &MotionDb, check: impl Fn(&Action) -> CheckResult) -> CheckResult {
@@ -107,7 +106,7 @@ pub(crate) fn idles_are_loops(db: &MotionDb) -> CheckResult {
             return Ok(());
         }
         let rests = |frame: &ActionFrame| {
-            frame.root == Root::default() && frame.contacts.iter().all(|&contact| contact >= PLANTED_CONTACT)
+            frame.root == Root::default() && frame.contacts.iter().all(|&contact| f64::from(contact) >= PLANTED_CONTACT)
         };
         ensure(action.frames.iter().all(rests), || "a foot lifts, or the root moves".to_owned())?;
         let (first, last) = (&action.frames[0], &action.frames[action.frames.len() - 1]);

@@ -210,7 +210,7 @@ impl Behaviour {
         self.states.iter().position(|state| state.name == name)
     }
 
-    /// Whether agents that begin in a state, by index, can come into each state, whatever the conditions.
+    /// Whether agents that begin in the state of this index can enter each state, if every condition may hold.
     pub(crate) fn reachable_from(&self, start: u32) -> Vec<bool> {
         let mut is_reachable = vec![false; self.states.len()];
         let mut open = vec![start];

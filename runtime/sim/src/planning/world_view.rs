@@ -123,27 +123,31 @@ impl<'a> WorldView<'a> {
     /// of way"). The shares of two agents add up to 1.
     pub(crate) fn shares(&self, agent: usize, neighbours: &[Neighbour]) -> Lanes {
         let mut shares = [EQUAL_SHARE; LANES];
-        if let Some(priorities) = self.priorities {
-            for (share, neighbour) in shares.iter_mut().zip(neighbours) {
-                let above = priorities[neighbour.agent as usize] - priorities[agent];
-                *share += EQUAL_SHARE * above.clamp(-1.0, 1.0);
-            }
+        for (share, neighbour) in shares.iter_mut().zip(neighbours) {
+            *share -= EQUAL_SHARE * self.precedence(agent, neighbour);
         }
         shares
     }
 
-    /// An agent's velocity, and one of its neighbours, as the agent's half-plane takes them. The one of the higher
-    /// priority counts as walking at its preferred velocity already, as far as the priorities differ (up to 1; Curtis et
-    /// al. 2013): with no part in the avoiding, its half-plane passes through its velocity, and at the present one an
-    /// agent at rest could never begin to walk.
+    /// Priority of an agent over that of a neighbour, from -1 to 1; 0 among equals.
+    fn precedence(&self, agent: usize, neighbour: &Neighbour) -> f32 {
+        let over = |priorities: &[f32]| priorities[agent] - priorities[neighbour.agent as usize];
+        self.priorities.map_or(0.0, over).clamp(-1.0, 1.0)
+    }
+
+    /// An agent's velocity, and one of its neighbours, as the agent's half-plane takes them.
+    ///
+    /// The agent of the higher priority counts as if it had gained a share of its preferred velocity: all of it from a
+    /// difference of 1 (Curtis et al. 2013). The half-plane of an agent that avoids nothing passes through its velocity;
+    /// with the present one, an agent at rest could never begin to walk.
     pub(crate) fn with_right_of_way(&self, agent: usize, neighbour: &Neighbour) -> (Vec2, Neighbour) {
-        let own_mps = self.velocities_mps[agent];
-        let Some(priorities) = self.priorities else { return (own_mps, *neighbour) };
-        let other = neighbour.agent as usize;
-        let above = (priorities[agent] - priorities[other]).clamp(-1.0, 1.0);
+        let (own_mps, precedence) = (self.velocities_mps[agent], self.precedence(agent, neighbour));
+        if precedence == 0.0 {
+            return (own_mps, *neighbour);
+        }
         let gain_mps = |of: usize| self.preferred_mps[of] - self.velocities_mps[of];
-        let own_gain_mps = above.max(0.0) * gain_mps(agent);
-        let other_gain_mps = (-above).max(0.0) * gain_mps(other);
+        let own_gain_mps = precedence.max(0.0) * gain_mps(agent);
+        let other_gain_mps = (-precedence).max(0.0) * gain_mps(neighbour.agent as usize);
         let relative_mps = neighbour.relative_mps + own_gain_mps - other_gain_mps;
         (own_mps + own_gain_mps, Neighbour { relative_mps, ..*neighbour })
     }

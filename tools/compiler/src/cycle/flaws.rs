@@ -33,13 +33,12 @@ pub(crate) fn flaws_of_strides(strides: &[Stride], rates: &Rates, slide: &FootSl
         + 1.0 / strides.len() as f64
 }
 
-/// The flaws of a rest: the longer it is, the calmer is its calmest part; arms that hang suit every crowd; a body that
-/// hardly stands still is none to stand like.
+/// The flaws of a rest: it is short, its arms are raised, its joints move.
 pub(crate) fn flaws_of_rest(rest: &Rest) -> f64 {
     REST_S / rest.duration_s + rest.arms_raised + rest.joint_speed_mps / STANDING_JOINT_SPEED_MPS
 }
 
-/// The flaws that every rest of a clip has: its name names another motion, and it has warnings.
+/// The flaws that every rest of a clip has: the clip's name does not say that the body stands, and the clip has warnings.
 pub(crate) fn standing_flaws(clip: &HumanClip) -> f64 {
     let name = clip.name.to_lowercase();
     let is_named = STANDING_NAMES.iter().any(|word| name.contains(word));

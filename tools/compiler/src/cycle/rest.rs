@@ -13,6 +13,7 @@ use motiondb::statistics::mean;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
+use crate::rig::roles::ARMS;
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
@@ -22,11 +23,6 @@ const ARMS_OUT_DEG: f64 = 30.0;
 const STRAIGHT_DEG: f64 = 25.0;
 /// Least angle of the higher arm off straight down in a raised one, degrees.
 const ARM_RAISED_DEG: f64 = 65.0;
-/// Shoulder, elbow and wrist of each arm.
-const ARMS: [[Joint; 3]; 2] = [
-    [Joint::LeftUpperArm, Joint::LeftForearm, Joint::LeftHand],
-    [Joint::RightUpperArm, Joint::RightForearm, Joint::RightHand],
-];
 
 /// Figures of a rest, means over its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
