@@ -26,9 +26,22 @@ fn well_known_text_is_walkable_ground() {
         check(
             "hall.wkt",
             &text,
-            &["[[walkable]]\npolygon_m = [[0, 0], [8, 0], [8, 5], [0, 5]]\nholes_m = [\n", "# [[agents]]\n# grid = {"],
+            &[
+                "polygon_m = [[0, 0], [8, 0], [8, 5], [0, 5]]\nholes_m = [\n",
+                "# [[agents]]\n# grid = {",
+                "# hall.wkt:1",
+            ],
         );
     }
+    let lines = HALL.replace("), (", "),\n (");
+    let second = format!("GEOMETRYCOLLECTION ({lines},\n POLYGON ((9 9, 10 9, 10 10, 9 9)))");
+    check("hall.wkt", &second, &["# hall.wkt:1\npolygon_m = [[0, 0]", "# hall.wkt:3\npolygon_m = [[9, 9]"]);
+    check(
+        "hall.wkt",
+        &format!("SRID=25832;{HALL}"),
+        &["1: coordinates of EPSG:25832 are taken as metres", "[[0, 0], [8, 0]"],
+    );
+    check_refused("hall.wkt", &format!("SRID = 4326;\n{HALL}"), "the coordinates are degrees of EPSG:4326");
     check_refused("hall.wkt", "POINT (1 2)", "no polygon");
     check_refused("hall.wkt", "POLYGON Z ((0 0 1, 1 0 1, 1 1 1, 0 0 1))", "third coordinate");
     check_refused("hall.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1, 0 0))", "crosses");
@@ -53,6 +66,15 @@ fn geojson_is_walkable_ground() {
     ] {
         check("hall.geojson", &text, &["polygon_m = [[0, 0], [8, 0], [8, 5]]", "coordinates are taken as metres"]);
     }
+    let second = format!(
+        r#"{{"type": "GeometryCollection", "geometries": [{polygon}, {}]}}"#,
+        polygon.replace("[8, 5]", "[8, 6]")
+    );
+    check(
+        "hall.geojson",
+        &second,
+        &["# hall.geojson: geometries[1].coordinates\npolygon_m = [[0, 0], [8, 0], [8, 6]]"],
+    );
     let degrees = r#"{"type": "Polygon", "coordinates": [[[11.5, 48.1], [11.6, 48.1], [11.6, 48.2], [11.5, 48.1]]]}"#;
     check_refused("town.geojson", degrees, "degrees");
     check_refused("x.json", "{\"type\": \"Polygon\", \"coordinates\": [", "no GeoJSON");
@@ -186,14 +208,20 @@ fn a_scenario_of_vadere_keeps_seed_speeds_and_duration() {
         &[
             "inherits = \"pedestrian\"\npreferred_speed_mps = 1.5\n",
             "preferred_speed_mps = 10\n",
+            "!0: `freeFlowSpeed` is cut to 0.1 to 10 m/s",
             "at_m = [13, 5]\nprofile = \"pedestrian_150_cm_per_s\"\n",
             "at_m = [12, 5]\nprofile = \"pedestrian\"\n",
         ],
     );
+    let area =
+        "{ \"id\": 9, \"shape\": { \"type\": \"RECTANGLE\", \"x\": 10, \"y\": 5, \"width\": 3, \"height\": 4 } }";
     check(
         "hall.scenario",
-        &with("\"stairs\": [ {} ]", "\"measurementAreas\": [ {}, {} ]"),
-        &["!0: 2 measurement areas are left out; add them as [[measure]]"],
+        &with("\"stairs\": [ {} ]", &format!("\"measurementAreas\": [ {area}, {area} ]")),
+        &[
+            "[[measure]]\nname = \"measurement area 9\"\nrect_m = [10, 5, 13, 9]\n",
+            "name = \"measurement area 9 (2)\"\n",
+        ],
     );
 }
 

@@ -147,6 +147,8 @@ impl Profiles {
 /// Speed, radius and obstacle mask that a profile states itself.
 type OwnNumbers = (Option<DrawnNumber>, Option<DrawnNumber>, Option<u64>);
 
+/// Numbers of a profile that agents with bodies do not have: how fast they walk and speed up, and whom they see.
+const UNUSED: [&str; 4] = ["max_speed", "max_accel", "neighbor_dist", "max_neighbors"];
 /// Note on priorities, of profiles and of states.
 pub(crate) const PRIORITIES_UNUSED: &str = "priorities are not used; they act in Menge's model \"pedvo\" alone";
 
@@ -156,6 +158,10 @@ fn own_numbers(element: &Element<'_>, scene: &mut Scene) -> Result<OwnNumbers, S
         speed_mps = common.number("pref_speed")?.map(DrawnNumber::Constant).or(speed_mps);
         radius_m = common.number("r")?.map(DrawnNumber::Constant).or(radius_m);
         mask = common.count("obstacleSet")?.or(mask);
+        if UNUSED.iter().any(|name| common.text(name).is_some()) {
+            let what = format!("{} are not used: the bodies decide", UNUSED.join(", "));
+            scene.notes.add(&common.file.shown, common.line(), what, false);
+        }
         let mut priority = common.number("priority")?.map(DrawnNumber::Constant);
         for property in common.named("Property") {
             match property.required("name")? {

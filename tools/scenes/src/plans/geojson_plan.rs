@@ -9,14 +9,12 @@ use motiondb::files::{Invalid, SourceText};
 use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::bounds_m;
 use crate::json_place::{JsonStep, place, shown};
-use crate::plans::coordinate_system::CoordinateSystem;
+use crate::plans::coordinate_system::{CoordinateSystem, PROJECT_IT};
 use crate::plans::rings_of_plan::{PlanFault, move_near_origin, ring, walkable};
 use crate::scene::{Point, Scene};
 
 /// Extent below which a plan is surely in degrees, m: smaller than a room.
 const DEGREES_M: f64 = 0.5;
-/// How to mend a plan in degrees.
-const PROJECT_IT: &str = "project it to metres, for instance to the UTM zone of the place";
 /// Deepest nesting of collections.
 const DEPTH_MAX: usize = 16;
 
@@ -63,7 +61,7 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
 
 /// Refuses a coordinate system in degrees; notes any other.
 fn note_coordinates(source: &SourceText, json: &GeoJson, scene: &mut Scene) -> Result<(), SceneError> {
-    let Some(CoordinateSystem { name, is_in_degrees, is_web_mercator }) = CoordinateSystem::of(json) else {
+    let Some(CoordinateSystem { name, is_in_degrees, stretch }) = CoordinateSystem::of(json) else {
         let shown = scene.source.clone();
         scene.notes.add(&shown, 0, "coordinates are taken as metres", false);
         return Ok(());
@@ -74,9 +72,8 @@ fn note_coordinates(source: &SourceText, json: &GeoJson, scene: &mut Scene) -> R
         return Err(Invalid { is_quotable: false, ..invalid }.into());
     }
     let line = 1 + source.text[..at.start].matches('\n').count();
-    let stretch = if is_web_mercator { "; this projection stretches lengths away from the equator" } else { "" };
     let shown = scene.source.clone();
-    scene.notes.add(&shown, line, format!("coordinates of {name} are taken as metres{stretch}"), is_web_mercator);
+    scene.notes.add(&shown, line, format!("coordinates of {name} are taken as metres{stretch}"), !stretch.is_empty());
     Ok(())
 }
 
@@ -155,6 +152,7 @@ fn add_polygon(rings: &[Vec<Position>], scene: &mut Scene, path: &mut Vec<JsonSt
         rings_m.push(ring_m);
         path.pop();
     }
-    scene.walkable.extend(walkable(&rings_m, "")?);
+    let origin = format!("{}: {}", scene.source, shown(path));
+    scene.walkable.extend(walkable(&rings_m, &origin)?);
     Ok(())
 }

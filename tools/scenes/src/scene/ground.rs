@@ -1,6 +1,6 @@
-//! The ground of a scene: walkable polygons and obstacles. World, metres.
+//! The ground of a scene: walkable polygons, obstacles and measured areas. World, metres.
 
-use crate::scene::shape::Point;
+use crate::scene::shape::{Point, Shape};
 
 /// A polygon on which agents walk, with holes; all of a scene are united.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,17 @@ pub struct ClosedZone {
     /// Names of the states.
     pub states: Vec<String>,
     /// Position in the source, "file:line"; empty where it is that of the zone before.
+    pub origin: String,
+}
+
+/// An area in which the density of agents is measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneMeasure {
+    /// Its name.
+    pub name: String,
+    /// Where it lies: not a point.
+    pub shape: Shape,
+    /// Position in the source, "file:line" or a name.
     pub origin: String,
 }
 

@@ -17,7 +17,7 @@ pub use behaviour::{
     SceneTarget, SceneTransition,
 };
 pub use drawn_number::DrawnNumber;
-pub use ground::{ClosedZone, SceneObstacle, Walkable};
+pub use ground::{ClosedZone, SceneMeasure, SceneObstacle, Walkable};
 pub use note::{Note, Notes};
 pub(crate) use shape::round_to_mm;
 pub use shape::{Point, Shape};
@@ -53,6 +53,8 @@ pub struct Scene {
     pub obstacles: Vec<SceneObstacle>,
     /// Ground that agents do not enter in some states.
     pub closed_zones: Vec<ClosedZone>,
+    /// Areas in which the density is measured.
+    pub measures: Vec<SceneMeasure>,
     /// Width and height of pictures, pixels.
     pub picture: Option<[u64; 2]>,
     /// What is not supported.

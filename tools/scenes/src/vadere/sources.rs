@@ -48,7 +48,13 @@ pub(crate) fn read_sources(
     for (index, agent) in topography.dynamic_elements.iter().enumerate() {
         let at_m = agent.position.position_m();
         check_shape(&Shape::Point(at_m)).map_err(at_item("dynamicElements", index))?;
-        let speed = agent.free_flow_speed.filter(|speed_mps| *speed_mps > 0.0).map(hundredths);
+        let speed_mps = agent.free_flow_speed.filter(|speed_mps| *speed_mps > 0.0);
+        if speed_mps.is_some_and(|speed_mps| !(SPEEDS_MPS[0]..=SPEEDS_MPS[1]).contains(&speed_mps)) {
+            let [least, most] = SPEEDS_MPS;
+            let (file, what) = (scene.source.clone(), format!("`freeFlowSpeed` is cut to {least} to {most} m/s"));
+            scene.notes.add(&file, 0, what, true);
+        }
+        let speed = speed_mps.map(hundredths);
         groups.entry((&agent.target_ids, speed)).or_insert((index, Vec::new())).1.push(at_m);
     }
     let speeds: BTreeSet<u64> = groups.keys().filter_map(|(_, speed)| *speed).collect();

@@ -8,8 +8,8 @@ use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::{CORNERS_MAX, is_simple, without_repeats};
 use crate::geometry::walls::of_line;
 use crate::json_place::{JsonStep, place, shown};
-use crate::scene::{DrawnNumber, Point, Scene, SceneObstacle, SceneProfile, Shape, Walkable};
-use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_points, corners_m};
+use crate::scene::{DrawnNumber, Point, Scene, SceneMeasure, SceneObstacle, SceneProfile, Shape, Walkable};
+use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_points, check_shape, corners_m};
 use crate::vadere::sources::read_sources;
 use crate::vadere::targets::Targets;
 use crate::vadere::vadere_file::{VadereFile, VadereSimulation, VadereTopography};
@@ -109,6 +109,14 @@ fn read_topography(topography: &VadereTopography, scene: &mut Scene) -> Result<(
     let mut all = Targets::read(targets, scene)?;
     read_sources(topography, radius_m, &mut all, scene)?;
     all.write_states(scene);
+    for (index, area) in topography.measurement_areas.iter().enumerate() {
+        let shape = area.shape.shape();
+        check_shape(&shape).map_err(at_item("measurementAreas", index))?;
+        let before = topography.measurement_areas[..index].iter().filter(|other| other.id == area.id).count();
+        let number = if before > 0 { format!(" ({})", before + 1) } else { String::new() };
+        let name = format!("measurement area {}{number}", area.id);
+        scene.measures.push(SceneMeasure { name, shape, origin: String::new() });
+    }
     Ok(())
 }
 
@@ -141,7 +149,6 @@ fn note_unsupported(topography: &VadereTopography, scene: &mut Scene) {
     note(topography.stairs.len(), "stairs are level ground");
     note(topography.target_changers.len(), "target changers are left out");
     note(topography.absorbing_areas.len(), "absorbing areas are left out");
-    note(topography.measurement_areas.len(), "measurement areas are left out; add them as [[measure]]");
     let is_set = |value: &&serde_json::Value| !value.is_null();
     note(topography.teleporter.iter().filter(is_set).count(), "teleporter is left out");
 }

@@ -48,7 +48,7 @@ pub(crate) struct VadereTopography {
     #[serde(default)]
     pub(crate) target_changers: Vec<Value>,
     #[serde(default)]
-    pub(crate) measurement_areas: Vec<Value>,
+    pub(crate) measurement_areas: Vec<VadereItem>,
     #[serde(default)]
     pub(crate) absorbing_areas: Vec<Value>,
     #[serde(default)]

@@ -1,7 +1,7 @@
-//! The tables of walkable ground and obstacles.
+//! The tables of walkable ground, obstacles, zones and measured areas.
 
-use crate::scene::{Point, Scene};
-use crate::write::words::{commented, list, packed, point, quoted};
+use crate::scene::{Point, Scene, SceneMeasure};
+use crate::write::words::{commented, list, packed, point, quoted, shape};
 
 /// The tables `[[walkable]]`.
 pub(crate) fn walkable(scene: &Scene) -> String {
@@ -43,6 +43,15 @@ pub(crate) fn closed_zones(scene: &Scene) -> String {
         text += &format!("closed_in = [{}]\n\n", states.join(", "));
     }
     text
+}
+
+/// The tables `[[measure]]`.
+pub(crate) fn measures(scene: &Scene) -> String {
+    let table = |measure: &SceneMeasure| {
+        let head = commented("[[measure]]", &measure.origin);
+        format!("{head}name = {}\n{}\n\n", quoted(&measure.name), shape(&measure.shape))
+    };
+    scene.measures.iter().map(table).collect()
 }
 
 fn polygon(key: &str, corners_m: &[Point]) -> String {

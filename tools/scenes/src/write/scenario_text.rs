@@ -44,6 +44,7 @@ pub fn write(scene: &Scene, options: &WriteOptions) -> WrittenScene {
         ground_tables::walkable(scene),
         ground_tables::obstacles(scene),
         ground_tables::closed_zones(scene),
+        ground_tables::measures(scene),
         picture(scene),
     ];
     let filled: Vec<&str> = sections.iter().map(|section| section.trim_end()).filter(|text| !text.is_empty()).collect();
@@ -61,7 +62,11 @@ fn head(scene: &Scene, options: &WriteOptions) -> String {
         text += "# What happens otherwise than in the source:\n";
     }
     for note in changing.iter().take(NOTES_SHOWN) {
-        let position = if note.file.is_empty() { String::new() } else { format!("{}:{}: ", note.file, note.line) };
+        let position = match (note.file.as_str(), note.line) {
+            ("", _) => String::new(),
+            (file, 0) => format!("{file}: "),
+            (file, line) => format!("{file}:{line}: "),
+        };
         text += &format!("# - {}{}\n", plain(&position), plain(&note.what));
     }
     if changing.len() > NOTES_SHOWN {
