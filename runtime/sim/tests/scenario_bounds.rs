@@ -43,6 +43,20 @@ fn every_number_must_be_finite() {
 }
 
 #[test]
+fn corners_of_all_obstacles_have_a_bound() {
+    let teeth: String = (0..998).map(|at| format!("[{}, {}],", 300.0 + 0.01 * f64::from(at), 1 + at % 2)).collect();
+    let comb = format!("{teeth}[310, 0], [300, 0]");
+    let scene = |copies: i32| {
+        let copies: String = (0..copies).map(|copy| format!("[{}, 30],", 20 * copy)).collect();
+        format!("{AGENT}[[obstacles]]\npolygon_m = [{comb}]\ncopies_m = [{copies}]\n")
+    };
+    let message = refused(scene(251)).expect("too many corners");
+    assert!(message.starts_with("x.toml:5:"), "{message}");
+    assert!(message.contains("with this table the obstacles have 251000 corners"), "{message}");
+    assert!(refused(scene(20)).is_none_or(|message| !message.contains("obstacles have")));
+}
+
+#[test]
 fn sizes_have_bounds() {
     let many = |count: usize, item: &dyn Fn(usize) -> String| (0..count).map(item).collect::<String>();
     let state = |then: &str| format!("[states.s]\nwalk_mps = [1, 0]\nthen = [{then}]\n");

@@ -47,6 +47,9 @@ pub struct SceneFigures {
     pub closed_passages: Vec<ClosedPassageFigures>,
     /// Goals that some agents never reach, because zones are closed to them.
     pub barred_goals: Vec<BarredGoalsFigures>,
+    /// What the scenario states without effect, a sentence each: states that no agent enters, conditions that never hold,
+    /// doors that never open, and the like.
+    pub notes: Vec<String>,
     /// Memory that the simulation needs beside its database, MiB: an estimate.
     pub memory_mib: f64,
     /// Size of the recording if no agent leaves, MiB: an estimate.
@@ -153,6 +156,7 @@ fn figures(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToAgents])
         meshes: routes.meshes().map(mesh).collect(),
         closed_passages: closed_passages(closed),
         barred_goals: scenario.barred_goals().into_iter().map(barred).collect(),
+        notes: scenario.notes(),
         memory_mib: memory_bytes as f64 / MIB,
         recording_mib: recording_bytes as f64 / MIB,
     }

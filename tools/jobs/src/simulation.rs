@@ -110,6 +110,7 @@ impl PreparedSimulation {
         note_waiting(simulation.population(), observer);
         note_full_goals(simulation.population(), &header.scenario, observer);
         header.scenario.barred_goals().iter().for_each(|barred| observer(JobEvent::Note(&barred.to_string())));
+        header.scenario.notes().iter().for_each(|note| observer(JobEvent::Note(note)));
         Ok(stopwatch.timings(agent_steps, steps, header.scenario.dt_s))
     }
 }

@@ -5,7 +5,8 @@
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`,
 //! `social_group`, `places` (zones, doors, markings, measured lines and areas, cameras, shots), `coupling` and `view`; then
-//! `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then [`file`](mod@file).
+//! `rules` and `ranges`, `fault` and `error` (how a broken rule is shown), `notes` (what has no effect); then
+//! [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod characters;
@@ -14,6 +15,7 @@ pub(crate) mod due_times;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
+pub(crate) mod notes;
 pub(crate) mod places;
 mod point;
 pub(crate) mod profile;

@@ -23,4 +23,12 @@ pub enum RouteError {
         /// Number of edges.
         edges: usize,
     },
+    /// Walls of too much detail.
+    #[error("the ground between the walls has {corners} corners, more than {most}; merge obstacles that overlap")]
+    Corners {
+        /// Number of corners.
+        corners: usize,
+        /// Greatest number of corners.
+        most: usize,
+    },
 }

@@ -11,19 +11,20 @@ use glam::DVec2;
 
 use crate::route::mesh::grid::{GridPoint, lines, rounded, side};
 use crate::route::mesh::outline::{Contour, Outline};
+use crate::route::mesh::union::Shape;
 
 /// Cosine of the greatest turn of one segment of a fan, 45°, less rounding.
 const SEGMENT_COS: f64 = std::f64::consts::FRAC_1_SQRT_2 - 1e-9;
 
-/// Appends the contours whose union is an obstacle grown by a distance.
-pub(crate) fn grow(outline: &Outline, distance: f64, grown: &mut Vec<Contour>) {
+/// Appends the shapes whose union is an obstacle grown by a distance.
+pub(crate) fn grow(outline: &Outline, distance: f64, grown: &mut Vec<Shape>) {
     if let Some(contour) = &outline.convex {
-        grown.push(grown_convex(contour, distance));
+        grown.push(vec![grown_convex(contour, distance)]);
     }
     for contour in &outline.contours {
         add_bands_and_fans(contour, distance, grown);
     }
-    grown.extend(outline.contours.iter().cloned());
+    grown.push(outline.contours.clone());
     for wall in &outline.walls {
         add_bands_and_fans(wall, distance, grown);
     }
@@ -40,17 +41,17 @@ fn grown_convex(contour: &Contour, distance: f64) -> Contour {
 }
 
 /// Appends the bands on the right of a contour's edges and the fans at its convex corners.
-pub(crate) fn add_bands_and_fans(contour: &Contour, distance: f64, grown: &mut Vec<Contour>) {
+pub(crate) fn add_bands_and_fans(contour: &Contour, distance: f64, grown: &mut Vec<Shape>) {
     for [before, at, after] in corners(contour) {
         let normals = [normal(before, at), normal(at, after)];
         let outer = |point| rounded(lines(point) + distance * normals[1]);
-        grown.push(vec![outer(at), outer(after), after, at]);
+        grown.push(vec![vec![outer(at), outer(after), after, at]]);
         let turn = side(before, at, after);
         let folds_back = turn == 0 && normals[0].dot(normals[1]) < 0.0;
         if turn > 0 || folds_back {
             let mut corner = vec![at];
             fan(lines(at), normals, distance, &mut corner);
-            grown.push(corner);
+            grown.push(vec![corner]);
         }
     }
 }
@@ -101,8 +102,11 @@ mod tests {
         let corners_m = [[0.0, 0.0], [3.0, 0.0], [3.0, 0.3], [0.1, 0.2], [2.0, 4.0]].map(Vec2::from).to_vec();
         let mut grown = Vec::new();
         grow(&Outline::new(&corners_m).expect("near the origin"), 256.0, &mut grown);
-        let grown_m: Vec<Vec<Vec2>> =
-            grown.iter().map(|contour| contour.iter().map(|corner| metres(*corner).as_vec2()).collect()).collect();
+        let grown_m: Vec<Vec<Vec2>> = grown
+            .iter()
+            .flatten()
+            .map(|contour| contour.iter().map(|corner| metres(*corner).as_vec2()).collect())
+            .collect();
         for (x, y) in (-50..200).flat_map(|x| (-50..250).map(move |y| (x, y))) {
             let point_m = Vec2::new(x as f32, y as f32) * 0.02 + 0.000_7;
             let distance_m = if contains(&corners_m, point_m) { 0.0 } else { closest_distance_m(&corners_m, point_m) };

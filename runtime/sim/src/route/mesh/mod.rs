@@ -4,7 +4,7 @@
 //! nearest position on the mesh, and the passages that are too narrow.
 //!
 //! Read along the data: `ground` (input), `grid` (1/1024 m), `outline` (one obstacle), `growth` (by the distance),
-//! `free_space` (union and difference), `triangulation`, `route_mesh` (arrays), `clearance` (farther from walls
+//! `union`, `free_space`, `triangulation`, `route_mesh` (arrays), `clearance` (farther from walls
 //! where there is room), `gates` and `cut` (one-way zones), `box_tree` and `locate` (positions on the mesh), `passages`.
 
 pub(crate) mod box_tree;
@@ -21,6 +21,7 @@ pub(crate) mod outline;
 pub(crate) mod passages;
 pub(crate) mod route_mesh;
 pub(crate) mod triangulation;
+pub(crate) mod union;
 
 pub use error::RouteError;
 pub use free_space::{FreeSpace, walkable_contours_m};

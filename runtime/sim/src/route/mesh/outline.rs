@@ -8,12 +8,10 @@
 //!    winds around, and its segments, which are walls even where they enclose nothing.
 
 use glam::Vec2;
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay::{Overlay, ShapeType};
-use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::route::mesh::error::RouteError;
 use crate::route::mesh::grid::{GridPoint, grid_point, side};
+use crate::route::mesh::union::united;
 
 /// A closed polyline of grid points with the solid on its left.
 pub(crate) type Contour = Vec<GridPoint>;
@@ -49,7 +47,7 @@ impl Outline {
         if is_convex(&corners) {
             return Ok(Self::of_convex(corners));
         }
-        let contours = united(&[&corners], FillRule::NonZero);
+        let contours = united(std::iter::once(&corners));
         if contours.len() == 1 && contours[0].len() == corners.len() {
             return Ok(Self { contours, ..Self::default() });
         }
@@ -71,15 +69,6 @@ impl Outline {
     fn of_convex(contour: Contour) -> Self {
         Self { convex: Some(contour), ..Self::default() }
     }
-}
-
-/// The contours of a union: outer ones counter-clockwise, holes clockwise.
-pub(crate) fn united(contours: &[&Contour], rule: FillRule) -> Vec<Contour> {
-    let mut overlay = Overlay::<i32>::new(contours.iter().map(|contour| contour.len()).sum());
-    for contour in contours {
-        overlay.add_contour(contour, ShapeType::Subject);
-    }
-    overlay.overlay(OverlayRule::Subject, rule).into_iter().flatten().collect()
 }
 
 /// Twice the signed area, in grid cells.

@@ -8,8 +8,7 @@
 //! 4. Gates join regions, the widest first. A gate that joins two sets of regions with parts of the mesh is a passage
 //!    that separates. A gate within a set with parts of the mesh is a passage too, with a detour around it.
 //!
-//! Every gap wider than [`LEAST_M`] is found whose both sides an agent can reach, except gaps beside walls without
-//! thickness. Of several gaps in a row the narrowest is reported. World, metres.
+//! Every gap wider than [`LEAST_M`] is found whose both sides an agent can reach. Of several gaps in a row the narrowest is reported. World, metres.
 
 use std::collections::BTreeMap;
 
@@ -25,10 +24,14 @@ use crate::world::obstacles::edge_grid::EdgeGrid;
 
 /// Least width of a gap that is reported, m: narrower ones are taken for walls that touch.
 const LEAST_M: f64 = 5e-3;
-/// Allowance for gaps that the mesh just closes, m. Gaps that it leaves open are no gates.
-const NARROW_ALLOWANCE_M: f64 = 6e-3;
+/// Allowance for gaps that the mesh just closes, m: rounding to the grid in each round of unions. Gaps that it leaves
+/// open are no gates.
+const NARROW_ALLOWANCE_M: f64 = 30e-3;
 /// Least distance of a new corner from others on its edge, m: two lines of the grid.
 const CORNERS_APART_M: f64 = 2e-3;
+
+/// Number of corners that are tried for lying in a disc.
+const CORNERS_TRIED: usize = 16;
 
 /// A gap between walls that is too narrow for routes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,9 +65,11 @@ pub fn closed_passages(
     // New corners lie beside their edges by rounding; without them gates are only longer.
     let soup = triangulate(&with_nearest_points(&contours_m, narrow_m)).or_else(|_| triangulate(&contours_m))?;
     let space = RouteMesh::of_triangles(soup);
-    let (region_of, count) = regions(&space, |width_m, at_m| is_gate(mesh, narrow_m, width_m, at_m));
+    let edges: Vec<InnerEdge> = inner_edges(&space).collect();
+    let (short, passable): (Vec<_>, Vec<_>) = edges.into_iter().partition(|edge| edge.is_gate(mesh, narrow_m));
+    let (region_of, count) = regions(&space, &passable);
     let holds_mesh = regions_with_mesh(&space, &region_of, count, mesh);
-    let mut gates = gates(&space, &region_of, |width_m, at_m| is_gate(mesh, narrow_m, width_m, at_m));
+    let mut gates = gates(&short, &region_of);
     drop_niches(&mut gates, &holds_mesh);
     gates.sort_by(|a, b| b.width_m.total_cmp(&a.width_m));
     let mut passages = joining(&gates, holds_mesh);
@@ -72,9 +77,19 @@ pub fn closed_passages(
     Ok(passages)
 }
 
-/// Whether an inner edge of a length with its middle at a point is too short, and the mesh closes it.
-fn is_gate(mesh: &RouteMesh, narrow_m: f64, width_m: f64, at_m: DVec2) -> bool {
-    width_m < narrow_m && (width_m < LEAST_M || mesh.triangle_at(at_m).is_none())
+/// An edge between two triangles.
+struct InnerEdge {
+    triangles: [u32; 2],
+    width_m: f64,
+    /// Its middle, m.
+    at_m: DVec2,
+}
+
+impl InnerEdge {
+    /// Whether the edge is too short for an agent, and the mesh closes it.
+    fn is_gate(&self, mesh: &RouteMesh, narrow_m: f64) -> bool {
+        self.width_m < narrow_m && (self.width_m < LEAST_M || mesh.triangle_at(self.at_m).is_none())
+    }
 }
 
 /// The contours with a new corner on each edge at its point nearest to a corner that is near.
@@ -86,11 +101,14 @@ fn with_nearest_points(contours_m: &[Vec<DVec2>], near_m: f64) -> Vec<Vec<DVec2>
     let grid = EdgeGrid::new(&edges_m.iter().map(|ends_m| ends_m.map(|end_m| end_m.as_vec2())).collect::<Vec<_>>());
     let mut new: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
     for &[corner_m, _] in &edges_m {
-        for edge in grid.within((corner_m - near_m).as_vec2(), (corner_m + near_m).as_vec2()) {
+        let near: Vec<u32> = grid.within((corner_m - near_m).as_vec2(), (corner_m + near_m).as_vec2()).collect();
+        let others_m = nearest_corners(corner_m, near.iter().map(|&edge| edges_m[edge as usize][0]));
+        for edge in near {
             let [from_m, to_m] = edges_m[edge as usize];
             let nearest_m = nearest_on_edge(corner_m, from_m, to_m);
             let inside = [from_m, to_m].iter().all(|end_m| end_m.distance(nearest_m) > CORNERS_APART_M);
-            if inside && nearest_m.distance(corner_m) < near_m {
+            let is_empty = others_m.iter().all(|other_m| (corner_m - other_m).dot(nearest_m - other_m) >= 0.0);
+            if inside && is_empty && nearest_m.distance(corner_m) < near_m {
                 new.entry(edge).or_default().push(from_m.distance(nearest_m));
             }
         }
@@ -112,24 +130,35 @@ fn with_nearest_points(contours_m: &[Vec<DVec2>], near_m: f64) -> Vec<Vec<DVec2>
     contours_m.iter().map(split).collect()
 }
 
-/// Every inner edge once: its triangle, the one beyond, its length and its middle, m.
-fn inner_edges(space: &RouteMesh) -> impl Iterator<Item = (u32, u32, f64, DVec2)> {
+/// The corners nearest to one, [`CORNERS_TRIED`] at most: if the disc over a line from it holds any, the line is no edge
+/// of a Delaunay triangulation, nor the narrowest across a gap.
+fn nearest_corners(corner_m: DVec2, others_m: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
+    let mut others_m: Vec<DVec2> = others_m.filter(|other_m| *other_m != corner_m).collect();
+    let by_distance = |a: &DVec2, b: &DVec2| a.distance_squared(corner_m).total_cmp(&b.distance_squared(corner_m));
+    if others_m.len() > CORNERS_TRIED {
+        others_m.select_nth_unstable_by(CORNERS_TRIED, by_distance);
+        others_m.truncate(CORNERS_TRIED);
+    }
+    others_m
+}
+
+/// Every inner edge once.
+fn inner_edges(space: &RouteMesh) -> impl Iterator<Item = InnerEdge> {
     let edges = (0..space.triangle_count() as u32).flat_map(|triangle| (0..3).map(move |edge| (triangle, edge)));
     edges.filter_map(|(triangle, edge)| {
         let beyond = space.neighbours[triangle as usize][edge];
         let (corners_m, next) = (space.corners_m(triangle), (edge + 1) % 3);
         let (width_m, at_m) = (corners_m[edge].distance(corners_m[next]), corners_m[edge].midpoint(corners_m[next]));
-        (beyond != NONE && triangle < beyond).then_some((triangle, beyond, width_m, at_m))
+        let is_first = beyond != NONE && triangle < beyond;
+        is_first.then_some(InnerEdge { triangles: [triangle, beyond], width_m, at_m })
     })
 }
 
-/// The region of each triangle, and the number of regions.
-fn regions(space: &RouteMesh, is_gate: impl Fn(f64, DVec2) -> bool) -> (Vec<u32>, usize) {
+/// The region of each triangle, and the number of regions: triangles that passable edges join.
+fn regions(space: &RouteMesh, passable: &[InnerEdge]) -> (Vec<u32>, usize) {
     let mut sets = DisjointSets::new(space.triangle_count());
-    for (triangle, beyond, width_m, at_m) in inner_edges(space) {
-        if !is_gate(width_m, at_m) {
-            sets.join(triangle, beyond);
-        }
+    for &InnerEdge { triangles: [triangle, beyond], .. } in passable {
+        sets.join(triangle, beyond);
     }
     let (mut numbers, mut count) = (vec![NONE; space.triangle_count()], 0);
     let region_of = (0..space.triangle_count() as u32).map(|triangle| {
@@ -159,13 +188,13 @@ fn regions_with_mesh(space: &RouteMesh, region_of: &[u32], count: usize, mesh: &
     holds_mesh
 }
 
-fn gates(space: &RouteMesh, region_of: &[u32], is_gate: impl Fn(f64, DVec2) -> bool) -> Vec<Gate> {
-    let edges = inner_edges(space).filter(|&(.., width_m, at_m)| width_m >= LEAST_M && is_gate(width_m, at_m));
-    let gate = |(triangle, beyond, width_m, at_m)| {
-        let regions = [triangle, beyond].map(|triangle: u32| region_of[triangle as usize]);
-        Gate { at_m, width_m, regions }
+fn gates(short: &[InnerEdge], region_of: &[u32]) -> Vec<Gate> {
+    let gate = |&InnerEdge { triangles, width_m, at_m }: &InnerEdge| Gate {
+        at_m,
+        width_m,
+        regions: triangles.map(|triangle| region_of[triangle as usize]),
     };
-    edges.map(gate).collect()
+    short.iter().filter(|edge| edge.width_m >= LEAST_M).map(gate).collect()
 }
 
 /// Drops the gates of regions without mesh that have one gate only, until there are none.
@@ -302,5 +331,19 @@ mod tests {
         check(&niche, &[]);
         let corridor = [block(0.0, 4.0, 3.0, 2.0), block(3.3, 4.0, 6.7, 2.0)];
         check(&corridor, &[([3.15, 6.0], 0.3, true)]);
+    }
+
+    #[test]
+    fn gaps_beside_an_enclosure_are_found() {
+        let room = vec![block(0.0, -5.0, 10.0, 10.0)];
+        let walls = [block(5.0, -4.62, 0.2, 9.62)];
+        for obstacles_m in [&walls[..], &[block(5.0, -4.62, 0.2, 9.0), block(5.1, 4.0, 0.2, 2.0)]] {
+            let ground = Ground { obstacles_m, enclosures_m: &room, ..Ground::default() };
+            let mesh = RouteMesh::new(&ground, 0.2).expect("small numbers");
+            let found = closed_passages(&ground, 0.2, &mesh).expect("small numbers");
+            let [ClosedPassage { at_m, width_m, separates }] = found[..] else { panic!("{found:?}") };
+            assert!(at_m.distance(Vec2::new(5.1, -4.81)) < 0.2 && separates, "{at_m}");
+            assert!((width_m - 0.38).abs() < 5e-3, "{width_m}");
+        }
     }
 }

@@ -18,7 +18,9 @@ use crate::scenario::file::wkt_polygons::wkt_polygons;
 use crate::scenario::places::door::DoorSpec;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::Scenario;
-use crate::scenario::rules::ground_check::{CORNERS_MAX as WALKABLE_CORNERS_MAX, OBSTACLE_CORNERS_MAX, OBSTACLES_MAX};
+use crate::scenario::rules::ground_check::{
+    CORNERS_MAX as WALKABLE_CORNERS_MAX, OBSTACLE_CORNERS_MAX, OBSTACLES_CORNERS_MAX, OBSTACLES_MAX,
+};
 
 /// One `[[obstacles]]` table.
 #[derive(Debug, Deserialize)]
@@ -105,10 +107,11 @@ impl PlacedGround {
             walkable: Vec::new(),
             labels: PlacedLabels::default(),
         };
+        let mut corners = 0;
         for (index, table) in obstacles.iter().enumerate() {
             let signal = table.get_ref().signal(source, signals)?;
             let at_table = |(message, help): TableFault| source.invalid(table.span(), message, help);
-            placed.add_obstacle(index, table, signal).map_err(at_table)?;
+            placed.add_obstacle(index, table, signal, &mut corners).map_err(at_table)?;
         }
         let mut corners = 0;
         for (index, table) in walkable.iter().enumerate() {
@@ -123,6 +126,7 @@ impl PlacedGround {
         index: usize,
         table: &Spanned<ObstacleTable>,
         signal: Option<u32>,
+        corners: &mut usize,
     ) -> Result<(), TableFault> {
         let (span, ObstacleTable { polygon_m, copies_m, label, height_m, .. }) = (table.span(), table.get_ref());
         let (corners_m, offsets_m) = (counter_clockwise(polygon_m), offsets_m(copies_m.as_ref()));
@@ -131,6 +135,11 @@ impl PlacedGround {
             let message =
                 format!("with this table there are {count} obstacles; this one has {} corners", corners_m.len());
             return Err((message, "give at most 10,000 obstacles, of 3 to 1000 corners"));
+        }
+        *corners += corners_m.len() * offsets_m.len();
+        if *corners > OBSTACLES_CORNERS_MAX {
+            let message = format!("with this table the obstacles have {corners} corners");
+            return Err((message, "give at most 250,000 corners, with all copies"));
         }
         self.labels.add(label.as_ref(), middle_m(&corners_m), &offsets_m, &span)?;
         let Scenario { obstacles_m, obstacle_heights_m, enclosures_m, doors, .. } = &mut self.scenario;

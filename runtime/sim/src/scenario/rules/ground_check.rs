@@ -13,6 +13,9 @@ pub(crate) const OBSTACLES_MAX: usize = 10_000;
 const DOORS_MAX: usize = 1_000;
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
 pub(crate) const OBSTACLE_CORNERS_MAX: usize = 1_000;
+/// Greatest number of corners of all obstacles, enclosures and doors: 25 for each of the greatest number of obstacles.
+/// Time and memory of the walkable ground grow with it.
+pub(crate) const OBSTACLES_CORNERS_MAX: usize = 250_000;
 /// Greatest number of corners of an outline or hole of walkable ground: plans of whole buildings have hundreds.
 const WALKABLE_CORNERS_MAX: usize = 5_000;
 /// Greatest number of corners of all walkable polygons.
@@ -68,6 +71,10 @@ pub(crate) fn check_ground_ranges(scenario: &Scenario) -> Result<(), ScenarioFau
     for (index, polygon_m) in scenario.enclosures_m.iter().enumerate() {
         check_points(&ScenarioPart::Enclosure(index), polygon_m)?;
     }
+    let doors_m = scenario.doors.iter().map(|door| &door.polygon_m);
+    let all_m = scenario.obstacles_m.iter().chain(&scenario.enclosures_m).chain(doors_m);
+    let corners = all_m.map(Vec::len).sum();
+    within(obstacle, "the number of corners of all obstacles", corners, &(0..=OBSTACLES_CORNERS_MAX), "give fewer")?;
     let mut corners = 0;
     for (index, polygon) in scenario.walkable_m.iter().enumerate() {
         let part = ScenarioPart::Walkable(index);

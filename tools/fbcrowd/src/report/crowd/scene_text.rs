@@ -18,7 +18,8 @@ pub(crate) fn text(figures: &SceneFigures) -> String {
     ];
     let lines = lines.map(|(name, value)| line(name, &value)).concat();
     let barred = figures.barred_goals.iter().map(|barred| line("closed goals", &barred.text));
-    lines + &barred.collect::<String>() + &closed_passages(&figures.closed_passages)
+    let notes = figures.notes.iter().map(|note| line("note", note));
+    lines + &barred.chain(notes).collect::<String>() + &closed_passages(&figures.closed_passages)
 }
 
 fn line(name: &str, value: &str) -> String {
