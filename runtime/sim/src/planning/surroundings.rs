@@ -1,8 +1,11 @@
 //! What one agent sees: its nearest neighbours and the wall edges near its disc. World axes, metres, seconds.
 
+use glam::Vec2;
+
 use crate::planning::world_view::WorldView;
-use crate::world::neighbours::{NearestNeighbours, NeighbourQuery};
-use crate::world::obstacles::NearEdge;
+use crate::world::disc::Disc;
+use crate::world::neighbours::{NearestNeighbours, Neighbour, NeighbourQuery};
+use crate::world::obstacles::{NearEdge, Obstacles};
 use crate::world::time_to_collision::disc_with_segment;
 
 /// The surroundings of one agent. Their memory is kept from agent to agent.
@@ -15,7 +18,8 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Finds an agent's neighbours within `range_m` and the edges within `wall_range_m` of the disc that walls hold.
+    /// Finds an agent's neighbours within `range_m`, without those that walls hide, and the edges within `wall_range_m` of
+    /// the disc that walls hold.
     pub(crate) fn look_around(&mut self, world: &WorldView, agent: usize, range_m: f32, wall_range_m: f32) {
         let own = world.disc(agent);
         let query = NeighbourQuery {
@@ -26,7 +30,14 @@ impl Surroundings {
             range_m,
         };
         world.neighbours.nearest(&query, &mut self.neighbours);
-        world.walls_of(agent).near(own.position_m, world.wall_radii_m[agent] + wall_range_m, &mut self.edges);
+        let walls = world.walls_of(agent);
+        if !walls.corners().is_empty() {
+            let is_seen = |neighbour: &Neighbour| {
+                is_in_sight(walls, own, neighbour.offset_m, world.radii_m[neighbour.agent as usize])
+            };
+            self.neighbours.retain(is_seen);
+        }
+        walls.near(own.position_m, world.wall_radii_m[agent] + wall_range_m, &mut self.edges);
     }
 
     /// Least time to collision with a neighbour or an edge at the present velocities, s.
@@ -43,5 +54,31 @@ impl Surroundings {
     /// Bytes that the lists hold on the heap.
     pub(crate) fn heap_bytes(&self) -> usize {
         self.neighbours.heap_bytes() + self.edges.capacity() * size_of::<NearEdge>()
+    }
+}
+
+/// Whether an agent sees any of the disc of another: the line between their centres, or one of the lines between their
+/// edges on either side, crosses no wall.
+fn is_in_sight(walls: &Obstacles, own: Disc, offset_m: Vec2, radius_m: f32) -> bool {
+    let across = offset_m.perp().normalize_or_zero();
+    [0.0, 1.0, -1.0].into_iter().any(|side| {
+        let from_m = own.position_m + side * own.radius_m * across;
+        walls.is_free(from_m, own.position_m + offset_m + side * radius_m * across)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn walls_hide_agents() {
+        let wall_m = [[1.0, -3.0], [1.2, -3.0], [1.2, 3.0], [1.0, 3.0]].map(Vec2::from).to_vec();
+        let walls = Obstacles::new(&[wall_m]);
+        let own = |y: f32| Disc { position_m: Vec2::new(0.0, y), velocity_mps: Vec2::ZERO, radius_m: 0.25 };
+        let sees = |y: f32, offset_m: [f32; 2]| is_in_sight(&walls, own(y), Vec2::from(offset_m), 0.25);
+        assert!(!sees(0.0, [2.0, 0.0]) && !sees(2.7, [2.0, 0.0]), "behind the wall");
+        assert!(sees(2.8, [2.0, 0.0]), "an edge of the disc is past the end of the wall");
+        assert!(sees(0.0, [0.5, 2.0]) && sees(4.0, [2.0, 0.0]), "nothing is between them");
     }
 }

@@ -86,6 +86,18 @@ impl NearestNeighbours {
         &self.lanes
     }
 
+    /// Keeps the neighbours of which `is_kept` holds.
+    pub(crate) fn retain(&mut self, is_kept: impl Fn(&Neighbour) -> bool) {
+        let before = self.found.len();
+        self.found.retain(is_kept);
+        if self.found.len() < before {
+            self.lanes = NeighbourLanes::default();
+            for (lane, neighbour) in self.found.iter().enumerate() {
+                self.lanes.set(lane, neighbour.offset_m, neighbour.relative_mps, neighbour.radius_m);
+            }
+        }
+    }
+
     /// Square of the worst rank found, m².
     fn worst(&self) -> f32 {
         squared_of(self.keys[NEIGHBOUR_COUNT - 1])
