@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         write(path, |out| measures::write_table(&recording, out))?;
     }
     if let Some(folder) = &args.plots {
-        write_place_plots(&measures.places, folder)?;
+        write_place_plots(&measures.places, recording.header().scenario.duration_s, folder)?;
     }
     if args.json {
         output::print_json(&measures)?;
@@ -108,7 +108,12 @@ fn check_outputs(args: &Args, recording: &Recording) -> Result<(), Failure> {
         check_file(path)?;
     }
     if let Some(folder) = &args.plots {
-        let names = recording.header().scenario.measures.iter().map(|spec| spec.name.as_str());
+        let measures = &recording.header().scenario.measures;
+        if measures.is_empty() {
+            let message = "the scenario of the recording measures no place, so there is nothing to plot";
+            return Err(Failure::bad(format!("{message}; add [[measure]] to it, and simulate again")));
+        }
+        let names = measures.iter().map(|spec| spec.name.as_str());
         let plots: Vec<PathBuf> = names.map(|name| place_plot_path(name, folder)).collect();
         check_files(folder, &plots, std::slice::from_ref(&args.recording))?;
     }

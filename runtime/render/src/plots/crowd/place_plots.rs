@@ -38,15 +38,15 @@ const LETTER_PX: f32 = 16.0;
 /// Names and points of the curves of a plot.
 type Curves = Vec<(&'static str, Vec<Vec2>)>;
 
-/// Writes a plot of each measure into a folder, which is made if missing; returns the paths of the files.
+/// Writes a plot of each measure until a time, s, into a folder, which is made if missing; returns the paths of the files.
 ///
 /// # Errors
 /// If the folder cannot be made or a file cannot be written.
-pub fn write_place_plots(places: &[PlaceMeasures], folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
+pub fn write_place_plots(places: &[PlaceMeasures], until_s: f32, folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
     fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })?;
     let write = |place: &PlaceMeasures| {
         let path = place_plot_path(&place.name, folder);
-        png_frame::write(&path, &place_plot(place)).map(|()| path)
+        png_frame::write(&path, &place_plot(place, until_s)).map(|()| path)
     };
     places.iter().map(write).collect()
 }
@@ -56,12 +56,12 @@ pub fn place_plot_path(name: &str, folder: &Path) -> PathBuf {
     folder.join(format!("{name}.png"))
 }
 
-/// The plot of one measure.
-pub fn place_plot(place: &PlaceMeasures) -> Pixmap {
+/// The plot of one measure until a time, s.
+pub fn place_plot(place: &PlaceMeasures, until_s: f32) -> Pixmap {
     let (up, curves) = match (&place.line, &place.area, &place.egress) {
-        (Some(line), _, _) => ("passages N", passages(line)),
+        (Some(line), _, _) => ("passages N", passages(line, until_s)),
         (None, Some(area), _) => ("density, 1/m²", densities(area)),
-        (None, None, Some(egress)) => ("agents that left", removals(egress)),
+        (None, None, Some(egress)) => ("agents that left", removals(egress, until_s)),
         (None, None, None) => ("", Vec::new()),
     };
     let mut figure = PlotFigure::new(SIZE_PX);
@@ -111,18 +111,20 @@ fn draw_levels(figure: &mut PlotFigure, panel: &PlotPanel, area: &AreaMeasures) 
     figure.note(text, below_px, TextAnchor::Left, palette::INK);
 }
 
-fn passages(line: &LineMeasures) -> Curves {
-    vec![("forward", steps(&line.forward.times_s)), ("backward", steps(&line.backward.times_s))]
+fn passages(line: &LineMeasures, until_s: f32) -> Curves {
+    let curve = |times_s| steps(times_s, until_s);
+    vec![("forward", curve(&line.forward.times_s)), ("backward", curve(&line.backward.times_s))]
 }
 
-fn removals(egress: &EgressMeasures) -> Curves {
-    vec![("removals", steps(&egress.times_s))]
+fn removals(egress: &EgressMeasures, until_s: f32) -> Curves {
+    vec![("removals", steps(&egress.times_s, until_s))]
 }
 
-/// A count that rises by one at each time.
-fn steps(times_s: &[f64]) -> Vec<Vec2> {
+/// A count that rises by one at each time, until the end.
+fn steps(times_s: &[f64], until_s: f32) -> Vec<Vec2> {
     let rise = |(index, time_s): (usize, &f64)| [index, index + 1].map(|count| Vec2::new(*time_s as f32, count as f32));
-    [Vec2::ZERO].into_iter().chain(times_s.iter().enumerate().flat_map(rise)).collect()
+    let end = Vec2::new(until_s, times_s.len() as f32);
+    [Vec2::ZERO].into_iter().chain(times_s.iter().enumerate().flat_map(rise)).chain([end]).collect()
 }
 
 fn densities(area: &AreaMeasures) -> Curves {
@@ -140,8 +142,8 @@ mod tests {
 
     #[test]
     fn counts_rise_by_one_at_each_time() {
-        let expected = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (5.0, 1.0), (5.0, 2.0)].map(Vec2::from);
-        assert_eq!(steps(&[2.0, 5.0]), expected);
+        let expected = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (5.0, 1.0), (5.0, 2.0), (9.0, 2.0)].map(Vec2::from);
+        assert_eq!(steps(&[2.0, 5.0], 9.0), expected);
     }
 
     #[test]
@@ -166,7 +168,7 @@ mod tests {
             moments: densities.iter().enumerate().map(moment).collect(),
         };
         let place = PlaceMeasures { name: "hall".into(), line: None, area: Some(area), egress: None };
-        let picture = place_plot(&place);
+        let picture = place_plot(&place, 4.0);
         let strip_px = (PANEL_PX[1] + PANEL_PX[3] + STRIP_PX[1] + 0.5 * STRIP_PX[0]) as u32;
         let mut colours: Vec<_> = (0..SIZE_PX[0]).map(|x| picture.pixel(x, strip_px).unwrap()).collect();
         colours.dedup();
@@ -177,6 +179,6 @@ mod tests {
     #[test]
     fn a_measure_without_agents_is_drawn() {
         let place = PlaceMeasures { name: "empty".into(), line: None, area: None, egress: None };
-        assert_eq!(place_plot(&place).width(), SIZE_PX[0]);
+        assert_eq!(place_plot(&place, 4.0).width(), SIZE_PX[0]);
     }
 }

@@ -2,14 +2,16 @@
 //! agents, sources, goals and closed passages. World axes, metres.
 
 use fbcrowd_sim::route::{ClosedToAgents, CrowdRoutes};
-use fbcrowd_sim::scenario::{Scenario, SourceSpec};
+use fbcrowd_sim::scenario::{Scenario, SourceSpec, ZoneSpec};
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
 use crate::plots::chart::mark::PlotMark;
 use crate::plots::crowd::trajectories::PathScene;
-use crate::raster::palette::{INK, OBSTACLE, OBSTACLE_RIM, Rgb, SHARP_TURN_EDGES, TURNING_SET, line_colour};
+use crate::raster::palette::{
+    HOLDING_SET, INK, OBSTACLE, OBSTACLE_RIM, Rgb, SHARP_TURN_EDGES, SIDES, TURNING_SET, line_colour,
+};
 use crate::raster::text::TextAnchor;
 
 /// Width of the figure, pixels.
@@ -30,6 +32,18 @@ const AGENTS_DRAWN: usize = 300;
 const PASSAGES_NAMED: usize = 40;
 /// Greatest number of the mesh's edges that are drawn; a denser mesh is a grey area.
 const EDGES_DRAWN: usize = 60_000;
+/// A kind of zones beside the one-way ones.
+struct ZoneKind {
+    name: &'static str,
+    colour: Rgb,
+    holds: fn(&ZoneSpec) -> bool,
+}
+
+/// The kinds; a zone is of the first that holds it.
+const ZONE_KINDS: [ZoneKind; 2] = [
+    ZoneKind { name: "closed zone", colour: HOLDING_SET, holds: |zone| zone.is_closed },
+    ZoneKind { name: "zone of another speed", colour: SIDES[0], holds: |zone| zone.speed_factor != 1.0 },
+];
 /// Radius of the marks of a start, a goal and a closed passage, pixels.
 const MARKS_PX: [f32; 3] = [4.5, 7.0, 11.0];
 
@@ -59,6 +73,7 @@ pub fn scene_plan(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToA
     figure.legend(LEGEND_PX, &legend(scenario, closed));
     let panel = scene.draw_place(&mut figure, [left, top, width, height]);
     draw_mesh(&mut figure, &panel, routes);
+    draw_other_zones(&mut figure, &panel, scenario);
     draw_one_way_zones(&mut figure, &panel, scenario);
     draw_routes(&mut figure, &panel, scenario, routes);
     for source in &scenario.sources {
@@ -99,6 +114,8 @@ fn legend(scenario: &Scenario, closed: &[ClosedToAgents]) -> Vec<LegendEntry<'st
     if scenario.zones.iter().any(|zone| zone.one_way_deg.is_some()) {
         entries.push((PlotMark::Dashes, SHARP_TURN_EDGES, "one-way zone"));
     }
+    let shown = ZONE_KINDS.iter().filter(|kind| scenario.zones.iter().any(kind.holds));
+    entries.extend(shown.map(|kind| (PlotMark::Dashes, kind.colour, kind.name)));
     if !scenario.doors.is_empty() {
         entries.push((PlotMark::Dashes, OBSTACLE_RIM, "door"));
     }
@@ -119,6 +136,17 @@ fn draw_mesh(figure: &mut PlotFigure, panel: &PlotPanel, routes: &CrowdRoutes) {
     for (_, mesh) in routes.meshes() {
         let border = mesh.edges_m().filter(|(_, is_border)| *is_border).map(|(ends_m, _)| ends_m);
         figure.hatching(panel, border, LineStyle { opacity: 0.7, ..LineStyle::solid(TURNING_SET, 1.0) });
+    }
+}
+
+/// Draws the outlines of zones that are closed to some agents, and of those in which agents change their speed.
+fn draw_other_zones(figure: &mut PlotFigure, panel: &PlotPanel, scenario: &Scenario) {
+    for zone in &scenario.zones {
+        if let Some(kind) = ZONE_KINDS.iter().find(|kind| (kind.holds)(zone)) {
+            let outline_m = zone.area.outline_m();
+            let line = LineStyle { is_dashed: true, ..LineStyle::solid(kind.colour, 1.6) };
+            figure.polyline(panel, outline_m.iter().chain(outline_m.first()).copied(), line);
+        }
     }
 }
 

@@ -68,11 +68,11 @@ impl<'a> Profiles<'a> {
             let message = format!("the scenario has more than {PROFILES_MAX} profiles");
             return Err(source.invalid(table.span(), message, "give fewer").into());
         }
-        let resolve = |table: &&Spanned<ProfileTable>| {
-            profile(table.get_ref(), &names, &tables, characters)
+        let resolve = |(index, table): (usize, &&Spanned<ProfileTable>)| {
+            profile(index, &names, &tables, characters)
                 .map_err(|(message, help)| source.invalid(table.span(), message, help).into())
         };
-        let resolved = tables.iter().map(resolve).collect::<Result<_, ScenarioError>>()?;
+        let resolved = tables.iter().enumerate().map(resolve).collect::<Result<_, ScenarioError>>()?;
         Ok(Self { names, resolved, characters })
     }
 
@@ -142,13 +142,13 @@ impl<'a> Profiles<'a> {
 
 /// One profile with all that it inherits.
 fn profile(
-    table: &ProfileTable,
+    index: usize,
     names: &Names<'_>,
     tables: &[&Spanned<ProfileTable>],
     characters: &[CharacterSpec],
 ) -> Result<Profile, TableFault> {
-    let mut merged = table.clone();
-    let mut ancestors = Vec::new();
+    let mut merged = tables[index].get_ref().clone();
+    let mut ancestors = vec![index];
     while let Some(name) = merged.inherits.take() {
         let index = names.index(&name)?;
         if ancestors.contains(&index) {

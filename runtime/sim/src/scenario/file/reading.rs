@@ -148,7 +148,8 @@ impl ScenarioTexts<'_> {
         {
             return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
         }
-        let span = self.span(placed, &fault.part);
+        let table = self.span(placed, &fault.part);
+        let span = key_span(&self.source.text, &table, &fault.message).unwrap_or(table);
         self.source.invalid(span, fault.message, fault.help).into()
     }
 
@@ -186,6 +187,29 @@ impl ScenarioTexts<'_> {
     }
 }
 
+/// The bytes of the key that a message begins with, in the table that begins at some bytes; none where the table has no
+/// such key.
+fn key_span(text: &str, table: &Range<usize>, message: &str) -> Option<Range<usize>> {
+    let is_of_key = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+    let key = message.split(|letter| !is_of_key(letter)).next().filter(|key| !key.is_empty())?;
+    let mut begin = table.start;
+    for line in text.get(begin..)?.split_inclusive('\n') {
+        let indent = line.len() - line.trim_start().len();
+        // A list of points may begin with a bracket, too.
+        let is_header = line[indent..].starts_with('[')
+            && line[indent..].trim_start_matches('[').starts_with(|letter: char| letter.is_alphabetic());
+        if begin > table.start && is_header {
+            return None;
+        }
+        let rest = line[indent..].strip_prefix(key);
+        if rest.is_some_and(|rest| rest.trim_start().starts_with('=')) {
+            return Some(begin + indent..begin + line.trim_end().len());
+        }
+        begin += line.len();
+    }
+    None
+}
+
 /// The bytes of a tunable. Parses the text once more, since [`Params`](crate::params::Params) keeps no positions.
 fn parameter_span(source: &SourceText, section: &str, key: &str) -> Range<usize> {
     #[derive(Deserialize)]
@@ -194,4 +218,21 @@ fn parameter_span(source: &SourceText, section: &str, key: &str) -> Range<usize>
     }
     let spanned = toml::from_str::<SpannedParams>(&source.text).ok();
     spanned.and_then(|spanned| Some(spanned.params.get(section)?.get(key)?.span())).unwrap_or(0..0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_found_in_its_table_alone() {
+        let text = "[[zones]]\npolygon_m = [\n  [2, -1],\n]\n  speed_factor = -1\n[[zones]]\nspeed_factor=0\none_way_deg = 5\n";
+        let found = |start: usize, message: &str| key_span(text, &(start..start + 9), message).map(|span| &text[span]);
+        let second = text.rfind("[[").unwrap_or_default();
+        assert_eq!(found(0, "speed_factor is -1, not between"), Some("speed_factor = -1"));
+        assert_eq!(found(second, "speed_factor is 0, not between"), Some("speed_factor=0"));
+        assert_eq!(found(0, "one_way_deg is 5"), None);
+        assert_eq!(found(0, "speed is 5"), None);
+        assert_eq!(found(0, "the zone has no area"), None);
+    }
 }
