@@ -191,6 +191,25 @@ fn compile_follows_its_schema_and_lists_every_clip_once() {
 }
 
 #[test]
+fn compile_and_inspect_list_the_same_actions() {
+    let folder = folder("actions_schema");
+    let database = folder.join("motion.fbdb");
+    let clips = ["assets/clips/idle.bvh", "assets/clips/walk_110.bvh"];
+    let report = fbcrowd(&[&["compile", "-o", text(&database), "--json"], &clips[..]].concat()).expect_code(0).json();
+    check_schema("compile", &report);
+    let idle = &report["actions"][0];
+    assert_eq!((&idle["name"], &idle["kind"], &idle["source"]), (&"idle".into(), &"idle".into(), &"idle.bvh".into()));
+    assert_eq!((&idle["entry"]["example"], &idle["turn_rad"]), (&"idle".into(), &0.0.into()));
+    let [first_s, last_s] = [0, 1].map(|end| idle["window_s"][end].as_f64().unwrap());
+    assert!((last_s - first_s - idle["duration_s"].as_f64().unwrap()).abs() < 0.02, "{idle}");
+    let inspected = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(0).json();
+    check_schema("inspect", &inspected);
+    assert_eq!(inspected["actions"], report["actions"]);
+    let table = fbcrowd(&["inspect", text(&database)]).expect_code(0).stdout;
+    assert!(table.contains("idles, the best first") && table.contains("idle.bvh"), "{table}");
+}
+
+#[test]
 fn without_output_json_lists_the_reasons() {
     let folder = folder("nothing_written");
     let (broken, walk) = (folder.join("broken.bvh"), folder.join("walk_110.bvh"));

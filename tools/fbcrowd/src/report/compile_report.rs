@@ -10,11 +10,13 @@ use fbcrowd_jobs::stages::StageTime;
 use motiondb::diagnostic::{Diagnostic, Severity};
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, CoverageGap};
-use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
+use motiondb::quality::example_quality::{self, ExampleQuality};
+use motiondb::quality::finding::Finding;
 use motiondb_compiler::Rejection;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::action_report::{ActionReport, action_reports};
 use crate::report::json_diagnostic;
 
 /// The result of a compilation.
@@ -38,6 +40,8 @@ pub(crate) struct CompileReport {
     pub(crate) diagnostics: Vec<ClipDiagnostic>,
     /// Clips that give examples.
     pub(crate) used: Vec<UsedClip>,
+    /// Idles, the best first, and transitions.
+    pub(crate) actions: Vec<ActionReport>,
     /// Quality of the motion of every example, mirrored ones included.
     #[schemars(with = "Vec<ExampleQualityMirror>")]
     pub(crate) quality: Vec<ExampleQuality>,
@@ -126,6 +130,7 @@ impl CompileReport {
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
             simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
             refused: rejected.into_iter().map(UnusedClip::from).collect(),
+            actions: action_reports(db),
             quality: example_quality::quality(db),
             findings: example_quality::lint(db),
             coverage: coverage::coverage(db),
