@@ -10,7 +10,6 @@ use motiondb::statistics::mean;
 use crate::action::cut_action::CutAction;
 use crate::cycle::standing_cycle::mean_facing_rad;
 use crate::ground::root_arc::{Rates, RootArc};
-use crate::input::unique_names;
 use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 use crate::select::named_cycles::NamedCycle;
 
@@ -44,16 +43,14 @@ pub(crate) struct JoinedFrame {
     pub(crate) root: (DVec2, f64),
 }
 
-/// The actions that join examples of the set: the idles in their order, then the transitions by kind and name.
-pub(crate) fn joined_actions(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
+/// The idles of the set in their order; none where it has no standing example.
+pub(crate) fn joined_idles(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
     let Some(standing) = best_standing(cycles) else { return Vec::new() };
-    let mut joined: Vec<JoinedAction> = cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect();
-    unique_names::make_unique(joined.iter_mut().map(|action| &mut action.name));
-    joined
+    cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect()
 }
 
 /// Index of the standing example that the blend space uses: the one with the fewest flaws.
-fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
+pub(crate) fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
     let standing = (0..cycles.len()).filter(|&index| !cycles[index].cycle.steps);
     standing.min_by(|&a, &b| cycles[a].flaws.total_cmp(&cycles[b].flaws))
 }
