@@ -36,7 +36,7 @@ const SAME_FIT_M: f64 = 0.005;
 const BESIDE_S: f64 = 0.25;
 /// Half the span over which joint velocities are taken, s.
 const VELOCITY_SPAN_S: f64 = 1.0 / 30.0;
-/// Least turn of a turn on the spot, rad: 45°.
+/// Least turn of a turn on the spot and of a pivot, rad: 45°.
 const TURN_MIN_RAD: f64 = PI / 4.0;
 /// Greatest displacement of a turn on the spot, leg lengths.
 const TURN_DISPLACEMENT_MAX_LEGS: f64 = 0.9;
@@ -233,7 +233,8 @@ fn is_sound(found: &RecordedTransition, movement: MovementKind, body: &HumanBody
     let is_its_kind = match found.kind {
         ActionKind::Turn => legs <= TURN_DISPLACEMENT_MAX_LEGS,
         ActionKind::Step => (STEP_LEGS[0]..=STEP_LEGS[1]).contains(&legs) && turn_rad.abs() <= STEP_TURN_MAX_RAD,
-        _ => true,
+        ActionKind::Pivot => turn_rad.abs() >= TURN_MIN_RAD,
+        ActionKind::Idle | ActionKind::Start | ActionKind::Stop => true,
     };
     let is_near = |pelvis_m: DVec3| pelvis_m.truncate().length() <= PELVIS_ASIDE_MAX_LEGS * leg_m;
     is_its_kind
