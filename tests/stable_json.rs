@@ -82,6 +82,8 @@ fn validate_follows_its_schema_and_lists_every_invariant() {
         "parameters_follow_from_the_motion",
         "idles_are_loops",
         "actions_meet_their_examples",
+        "transitions_move_as_their_kind",
+        "transitions_have_no_jumps",
         "hulls_are_clockwise_and_convex",
         "hulls_wrap_their_examples",
         "half_planes_agree_with_the_hulls",

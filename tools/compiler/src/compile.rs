@@ -11,7 +11,7 @@ use motiondb::validate::first_broken;
 use rayon::prelude::*;
 
 use crate::action::idles::idles;
-use crate::action::joined_action::joined_idles;
+use crate::action::joined_action::{in_order, joined_idles};
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
@@ -21,7 +21,6 @@ use crate::ground::target_body::target_body;
 use crate::input::clip_set::{self, ClipSet};
 use crate::input::manifest::Manifest;
 use crate::input::options::Options;
-use crate::input::unique_names::make_unique;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::best_windows::{best_windows, windows_that_add};
@@ -117,10 +116,9 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let adding = windows_that_add(unique);
     let named = named_cycles(&set.clips, &adding, &set.body)?;
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
-    let mut actions = joined_idles(cut, &selected.cycles, &set.body);
+    let idles = joined_idles(cut, &selected.cycles, &set.body);
     observer(CompileEvent::Stage("transitions"));
-    actions.extend(transitions(&set.clips, &adding, &selected.cycles, &set.body));
-    make_unique(actions.iter_mut().map(|action| &mut action.name));
+    let actions = in_order(idles, transitions(&set.clips, &adding, &selected.cycles, &set.body));
     let db = assemble(selected, &actions, &set.body, options.velocity_hull, observer);
     observer(CompileEvent::Stage("validation"));
     valid(db)

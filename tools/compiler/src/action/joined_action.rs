@@ -10,6 +10,7 @@ use motiondb::statistics::mean;
 use crate::action::cut_action::CutAction;
 use crate::cycle::standing_cycle::mean_facing_rad;
 use crate::ground::root_arc::{Rates, RootArc};
+use crate::input::unique_names;
 use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 use crate::select::named_cycles::NamedCycle;
 
@@ -47,6 +48,16 @@ pub(crate) struct JoinedFrame {
 pub(crate) fn joined_idles(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
     let Some(standing) = best_standing(cycles) else { return Vec::new() };
     cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect()
+}
+
+/// All actions of a set, each with its own name: the idles in their order, then the transitions by kind and name.
+pub(crate) fn in_order(idles: Vec<JoinedAction>, transitions: Vec<JoinedAction>) -> Vec<JoinedAction> {
+    let mut actions = idles;
+    let idle_count = actions.len();
+    actions.extend(transitions);
+    unique_names::make_unique(actions.iter_mut().map(|action| &mut action.name));
+    actions[idle_count..].sort_by(|a, b| (a.kind, &a.name).cmp(&(b.kind, &b.name)));
+    actions
 }
 
 /// Index of the standing example that the blend space uses: the one with the fewest flaws.

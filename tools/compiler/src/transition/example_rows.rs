@@ -4,14 +4,14 @@
 //! Rows are in the root frame, which moves at the example's rates; velocities are those over the ground. An instant that
 //! is placed on a row gives the root there. Metres, seconds, radians.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
 
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::ground::root_arc::{Rates, RootArc};
-use crate::ground::rotations::ground_rotation;
-use crate::retarget::human_clip::HumanBody;
+use crate::ground::rotations::{align_hemispheres, ground_rotation};
+use crate::retarget::human_clip::{HumanBody, HumanPose};
 use crate::select::named_cycles::NamedCycle;
 use crate::transition::joint_state::{JointState, Placement};
 
@@ -40,6 +40,8 @@ pub(crate) struct ExampleRows {
     states: Vec<Vec<JointState>>,
     /// Index of the standing example that the blend space uses; none in a set without one.
     standing: Option<usize>,
+    /// First row of the set: the database stores rotations in its hemispheres.
+    reference: Option<[DQuat; JOINT_COUNT]>,
 }
 
 impl ExampleRows {
@@ -50,7 +52,17 @@ impl ExampleRows {
             maps: cycles.iter().map(|named| named.cycle.steps.then_some(named.cycle.phase_map)).collect(),
             states: cycles.iter().map(|named| states(&named.cycle, body)).collect(),
             standing,
+            reference: cycles.first().and_then(|named| named.cycle.rows.first()).map(|row| row.rotations),
         }
+    }
+
+    /// Rotations in the hemispheres in which the database stores them.
+    pub(crate) fn stored_rotations(&self, pose: &HumanPose) -> [DQuat; JOINT_COUNT] {
+        let mut rotations = pose.rotations;
+        if let Some(reference) = &self.reference {
+            align_hemispheres(&mut rotations, reference);
+        }
+        rotations
     }
 
     /// The row of the standing example whose pose is most like that of an instant.

@@ -50,6 +50,10 @@ const PELVIS_ASIDE_MAX_LEGS: f64 = 0.5;
 const VELOCITY_MAX_MPS: f64 = 0.08;
 /// The same of the turn rate, rad/s.
 const TURN_RATE_MAX_RAD_S: f64 = 0.2;
+/// Greatest rotation of a joint from one frame to the next, rad; a database accepts a little more.
+const JUMP_MAX_RAD: f64 = 0.9;
+/// Greatest displacement of the pelvis from one frame to the next, m; a database accepts a little more.
+const JUMP_MAX_M: f64 = 0.14;
 
 /// A transition, before the set decides which ones it keeps.
 #[derive(Clone, Debug)]
@@ -163,7 +167,7 @@ pub(crate) fn recorded_transition(
         first_foot: clip.first_foot(cut[0]),
         frames,
     };
-    is_sound(&found, movement.kind, body).then_some(found)
+    (is_sound(&found, movement.kind, body) && !jumps(&found.frames, rows)).then_some(found)
 }
 
 /// Where both ends of a cut meet the examples, if they fit.
@@ -243,6 +247,17 @@ fn is_sound(found: &RecordedTransition, movement: MovementKind, body: &HumanBody
         && meets(&found.frames[..2], &found.ends[0].rates)
         && meets(&found.frames[found.frames.len() - 2..], &found.ends[1].rates)
         && movement.stands().iter().zip(&found.ends).all(|(stands, end)| *stands == (end.rates == Rates::default()))
+}
+
+/// Whether a joint or the pelvis jumps from one frame to the next, as the database stores them.
+fn jumps(frames: &[JoinedFrame], rows: &ExampleRows) -> bool {
+    let least_dot = libm::cos(0.5 * JUMP_MAX_RAD);
+    frames.windows(2).any(|pair| {
+        let [from, to] = [&pair[0].pose, &pair[1].pose];
+        let rotations = rows.stored_rotations(from).into_iter().zip(rows.stored_rotations(to));
+        from.pelvis_m.distance(to.pelvis_m) > JUMP_MAX_M
+            || rotations.into_iter().any(|(from, to)| from.dot(to) < least_dot)
+    })
 }
 
 /// Whether the root moves from one frame to the next at the rates of an example.

@@ -21,7 +21,7 @@ use crate::transition::pauses::{Pause, pauses};
 use crate::transition::recorded_transition::{RecordedTransition, TransitionClip, recorded_transition};
 use crate::transition::selection::{best_transitions, needs_mirror};
 
-/// The transitions of a set, by kind and name. A set without a standing example has none of those that begin or end at
+/// The transitions of a set, by kind. A set without a standing example has none of those that begin or end at
 /// rest.
 pub(crate) fn transitions(
     clips: &[HumanClip],
@@ -47,10 +47,7 @@ pub(crate) fn transitions(
     let mut all: Vec<RecordedTransition> = recorded.into_iter().chain(mirrors).collect();
     all.sort_by_key(|found| (found.kind, found.source, found.cut[0].to_bits(), found.mirrored));
     let names: Vec<String> = all.iter().map(|found| name(found, &all, clips, analyzed)).collect();
-    let mut joined: Vec<JoinedAction> =
-        all.into_iter().zip(names).map(|(found, name)| joined(found, name, clips, analyzed)).collect();
-    joined.sort_by(|a, b| (a.kind, &a.name).cmp(&(b.kind, &b.name)));
-    joined
+    all.into_iter().zip(names).map(|(found, name)| joined(found, name, clips, analyzed)).collect()
 }
 
 /// The transitions of a clip.

@@ -143,7 +143,31 @@ pub(crate) fn findings(actions: &[ActionReport]) -> impl Iterator<Item = (String
     recorded.flat_map(|action| action.findings.iter().map(|found| (action.name.clone(), found.sentence.clone())))
 }
 
-/// "3 idles".
+/// Kinds of transitions, with their names for one and for several.
+const TRANSITIONS: [(ActionKind, [&str; 2]); 5] = [
+    (ActionKind::Start, ["start", "starts"]),
+    (ActionKind::Stop, ["stop", "stops"]),
+    (ActionKind::Turn, ["turn", "turns"]),
+    (ActionKind::Step, ["step", "steps"]),
+    (ActionKind::Pivot, ["pivot", "pivots"]),
+];
+
+/// The kinds of transitions that a set lacks.
+pub(crate) fn missing(actions: &[ActionReport]) -> Vec<ActionKind> {
+    let kinds = TRANSITIONS.into_iter().map(|(kind, _)| kind);
+    kinds.filter(|&kind| actions.iter().all(|action| action.kind != kind)).collect()
+}
+
+/// "1 idle; 2 turns, 1 step, no start, stop, pivot"; mirrored ones are not counted.
 pub(crate) fn counts(actions: &[ActionReport]) -> String {
-    counted(actions.len(), "idle", "idles")
+    let recorded = |kind: ActionKind| actions.iter().filter(|action| action.kind == kind && !action.mirrored).count();
+    let idles = counted(recorded(ActionKind::Idle), "idle", "idles");
+    let found = TRANSITIONS.into_iter().filter(|&(kind, _)| recorded(kind) > 0);
+    let found: Vec<String> = found.map(|(kind, [one, many])| counted(recorded(kind), one, many)).collect();
+    let missing: Vec<&str> = missing(actions).into_iter().map(ActionKind::name).collect();
+    if found.is_empty() {
+        return format!("{idles}, no transitions");
+    }
+    let missing = if missing.is_empty() { String::new() } else { format!(", no {}", missing.join(", ")) };
+    format!("{idles}; {}{missing}", found.join(", "))
 }

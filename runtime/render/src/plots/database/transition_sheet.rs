@@ -46,8 +46,8 @@ const TITLE_PX: Vec2 = Vec2::new(GAP_PX, 66.0);
 const GROUND_PX: f32 = 18.0;
 /// Greatest scale of a plan, pixels per metre.
 const PLAN_PX_M: f32 = 260.0;
-/// Margin of a plan about the path of the root, m: feet are beside it.
-const PLAN_MARGIN_M: f32 = 0.3;
+/// Margin of a plan about feet and root, m.
+const PLAN_MARGIN_M: f32 = 0.1;
 /// Width of a drawn sole, m.
 const SOLE_M: f32 = 0.07;
 /// Length of the mark of the facing, m.
@@ -156,8 +156,15 @@ fn parts(db: &MotionDb, frame: &ActionFrame, colours: usize) -> Vec<DrawnPart> {
 /// The plan of a transition: forward to the right, left up.
 fn draw_plan(figure: &mut PlotFigure, db: &MotionDb, action: &Action, top_px: f32) {
     let roots_m: Vec<Vec2> = action.frames.iter().map(|frame| frame.root.position_m).collect();
+    let soles_m: Vec<(usize, [Vec2; 3])> = Side::BOTH
+        .map(Side::index)
+        .into_iter()
+        .flat_map(|side| contacts(action, side).into_iter().map(move |contact| (side, contact)))
+        .map(|(side, contact)| (side, sole_m(db, &action.frames[(contact.start + contact.end) / 2], side)))
+        .collect();
+    let shown_m = || roots_m.iter().chain(soles_m.iter().flat_map(|(_, sole_m)| sole_m)).copied();
     let [least_m, most_m] =
-        [Vec2::min as fn(Vec2, Vec2) -> Vec2, Vec2::max].map(|side| roots_m.iter().copied().fold(Vec2::ZERO, side));
+        [Vec2::min as fn(Vec2, Vec2) -> Vec2, Vec2::max].map(|side| shown_m().fold(Vec2::ZERO, side));
     let size_m = (most_m - least_m).max_element() + 2.0 * PLAN_MARGIN_M;
     let scale_px_m = PLAN_PX_M.min(PLAN_PX / size_m);
     let middle_px = Vec2::new(NAMES_PX + STRIP_PX + GAP_PX + 0.5 * PLAN_PX, top_px + 0.5 * ROW_PX);
@@ -168,11 +175,8 @@ fn draw_plan(figure: &mut PlotFigure, db: &MotionDb, action: &Action, top_px: f3
             stroke(&mut figure.pixmap, &path, &paint(colour, opacity), &round_stroke(width_px), None);
         }
     };
-    for side in Side::BOTH.map(Side::index) {
-        for contact in contacts(action, side) {
-            let sole_m = sole_m(db, &action.frames[(contact.start + contact.end) / 2], side);
-            draw_line(&sole_m, SIDES[side], SOLE_M * scale_px_m, 0.45);
-        }
+    for (side, sole_m) in &soles_m {
+        draw_line(sole_m, SIDES[*side], SOLE_M * scale_px_m, 0.45);
     }
     draw_line(&roots_m, INK, 2.0, 1.0);
     for Root { position_m, facing_rad } in [action.frames[0].root, action.frames[action.frames.len() - 1].root] {
