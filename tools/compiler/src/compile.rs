@@ -64,6 +64,7 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
     }
     match compile(clips, &manifest.options, observer) {
         Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
+        Err(CompileError::NoTransition { file, kind }) => Err(manifest.no_transition(&file, kind)),
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
         compiled => Ok(Compiled { db: compiled?, rejected }),
     }
@@ -85,7 +86,8 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 10. Check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
-/// If there are no clips, none gives an example, the chosen m_sp does not step, or the database is invalid.
+/// If there are no clips, none gives an example, the chosen m_sp does not step, a clip does not show the transition that
+/// is stated, or the database is invalid.
 ///
 /// # Examples
 /// ```
@@ -118,7 +120,7 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, &set.body);
     observer(CompileEvent::Stage("transitions"));
-    let actions = in_order(idles, transitions(&set.clips, &adding, &selected.cycles, &set.body));
+    let actions = in_order(idles, transitions(&set.clips, &adding, &selected.cycles, &set.body)?);
     let db = assemble(selected, &actions, &set.body, options.velocity_hull, observer);
     observer(CompileEvent::Stage("validation"));
     valid(db)

@@ -82,6 +82,9 @@ impl AnalyzedClip {
             }
             Err(unfit) => reasons.push(unfit),
         }
+        if clip.choices.transition.is_some() {
+            (windows, reasons) = (Vec::new(), Vec::new());
+        }
         let standing_flaws = standing_flaws(clip);
         windows
             .iter_mut()

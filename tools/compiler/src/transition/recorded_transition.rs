@@ -62,6 +62,8 @@ pub(crate) struct RecordedTransition {
     pub(crate) kind: ActionKind,
     /// Index of the clip.
     pub(crate) source: usize,
+    /// A manifest states that the clip shows it.
+    pub(crate) is_stated: bool,
     /// First and last frame of the clip.
     pub(crate) cut: [f64; 2],
     /// Left and right are exchanged.
@@ -99,6 +101,8 @@ pub(crate) struct TransitionClip<'a> {
     pub(crate) found: &'a AnalyzedClip,
     /// Left and right are exchanged.
     pub(crate) mirrored: bool,
+    /// The kind of transition that a manifest states; its ends then need not be like the examples.
+    pub(crate) stated: Option<ActionKind>,
 }
 
 impl TransitionClip<'_> {
@@ -161,6 +165,7 @@ pub(crate) fn recorded_transition(
     let found = RecordedTransition {
         kind,
         source: clip.index,
+        is_stated: clip.stated.is_some(),
         cut,
         mirrored: clip.mirrored,
         ends,
@@ -181,12 +186,17 @@ fn matches(
     let at = |end: usize| {
         let state = clip.state(cut[end], body);
         if movement.kind.stands()[end] {
-            let limit_m = if movement.is_cut[end] { CUT_MAX_M } else { REST_MAX_M };
+            let limit_m = match (clip.stated, movement.is_cut[end]) {
+                (Some(_), _) => f64::INFINITY,
+                (None, true) => CUT_MAX_M,
+                (None, false) => REST_MAX_M,
+            };
             let stands = clip.contacts(cut[end]).iter().all(|contact| *contact >= 0.5);
             return rows.nearest_standing(&state).filter(|found| stands && found.pose_m <= limit_m);
         }
         let beside = clip.state_beside(cut, end, body);
-        rows.nearest_stepping(&state, beside.as_ref()).filter(|found| found.distance_m <= STRIKE_MAX_M)
+        rows.nearest_stepping(&state, beside.as_ref())
+            .filter(|found| clip.stated.is_some() || found.distance_m <= STRIKE_MAX_M)
     };
     Some([at(0)?, at(1)?])
 }

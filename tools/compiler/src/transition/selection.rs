@@ -61,18 +61,19 @@ impl Character {
     }
 }
 
-/// Keeps the best of near-equal transitions, and at most [`KIND_MAX`] of each kind; the best first.
+/// Keeps the best of near-equal transitions, and at most [`KIND_MAX`] of each kind; those that a
+/// manifest states first, all of them, then the best.
 pub(crate) fn best_transitions(mut found: Vec<RecordedTransition>) -> Vec<RecordedTransition> {
     found.sort_by(|a, b| {
         let by_place = (a.source, a.cut[0].to_bits()).cmp(&(b.source, b.cut[0].to_bits()));
-        a.flaws_m().total_cmp(&b.flaws_m()).then(by_place)
+        b.is_stated.cmp(&a.is_stated).then(a.flaws_m().total_cmp(&b.flaws_m())).then(by_place)
     });
     let mut kept: Vec<RecordedTransition> = Vec::new();
     for candidate in found {
         let own = Character::of(&candidate);
         let is_known = kept.iter().any(|other| Character::of(other).is_near(&own));
         let same_kind = kept.iter().filter(|other| other.kind == candidate.kind).count();
-        if !is_known && same_kind < KIND_MAX {
+        if candidate.is_stated || !is_known && same_kind < KIND_MAX {
             kept.push(candidate);
         }
     }

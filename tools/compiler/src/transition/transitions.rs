@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::action::joined_action::{JoinedAction, best_standing};
 use crate::cycle::analyzed_clip::{AnalyzedClip, ClipTimes};
+use crate::error::CompileError;
 use crate::gait::body_track::BodyTrack;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::named_cycles::{NamedCycle, window_name};
@@ -23,21 +24,33 @@ use crate::transition::selection::{best_transitions, needs_mirror};
 
 /// The transitions of a set, by kind. A set without a standing example has none of those that begin or end at
 /// rest.
+///
+/// # Errors
+/// If a clip does not show the transition that its manifest states.
 pub(crate) fn transitions(
     clips: &[HumanClip],
     analyzed: &[AnalyzedClip],
     cycles: &[NamedCycle],
     body: &HumanBody,
-) -> Vec<JoinedAction> {
+) -> Result<Vec<JoinedAction>, CompileError> {
     let rows = ExampleRows::of(cycles, best_standing(cycles), body);
     let of_clip = |index: usize| of_clip(index, &clips[index], &analyzed[index], &rows, body);
-    let recorded = best_transitions((0..clips.len()).into_par_iter().flat_map(of_clip).collect());
+    let found: Vec<Vec<RecordedTransition>> = (0..clips.len()).into_par_iter().map(of_clip).collect();
+    if let Some((clip, kind)) = unfulfilled(clips, &found) {
+        return Err(CompileError::NoTransition { file: clip.source.file.clone(), kind });
+    }
+    let recorded = best_transitions(found.into_iter().flatten().collect());
     let mirror = |found: &RecordedTransition| {
         let requested = clips[found.source].choices.mirror;
         if !requested.unwrap_or_else(|| needs_mirror(found, &recorded)) {
             return None;
         }
-        let clip = TransitionClip { index: found.source, found: &analyzed[found.source], mirrored: true };
+        let clip = TransitionClip {
+            index: found.source,
+            found: &analyzed[found.source],
+            mirrored: true,
+            stated: clips[found.source].choices.transition,
+        };
         let kind = movement_kind(found.kind);
         // The mirror image is cut where the original is.
         let movement = Movement { kind, cuts: vec![found.cut], is_cut: [false; 2] };
@@ -47,7 +60,15 @@ pub(crate) fn transitions(
     let mut all: Vec<RecordedTransition> = recorded.into_iter().chain(mirrors).collect();
     all.sort_by_key(|found| (found.kind, found.source, found.cut[0].to_bits(), found.mirrored));
     let names: Vec<String> = all.iter().map(|found| name(found, &all, clips, analyzed)).collect();
-    all.into_iter().zip(names).map(|(found, name)| joined(found, name, clips, analyzed)).collect()
+    Ok(all.into_iter().zip(names).map(|(found, name)| joined(found, name, clips, analyzed)).collect())
+}
+
+/// The first clip without the transition that its manifest states, and that kind.
+fn unfulfilled<'a>(clips: &'a [HumanClip], found: &[Vec<RecordedTransition>]) -> Option<(&'a HumanClip, ActionKind)> {
+    clips.iter().zip(found).find_map(|(clip, found)| {
+        let kind = clip.choices.transition?;
+        found.is_empty().then_some((clip, kind))
+    })
 }
 
 /// The transitions of a clip.
@@ -61,18 +82,19 @@ fn of_clip(
     if clip.unfit.is_some() {
         return Vec::new();
     }
+    let stated = clip.choices.transition;
     let frames = found.searched_frames();
     let before = found.grounded.loop_frames().unwrap_or(0) as f64;
     let track = BodyTrack::of(&found.grounded, body, |_| ());
     // A body that side-steps slowly stands for a moment in each stride.
     let is_in_strides = |pause: &Pause| {
         let middle = 0.5 * (pause.frames.start + pause.frames.end - 1) as f64 - before;
-        found.steady_parts.iter().any(|[first, last]| (*first..=*last).contains(&middle))
+        stated.is_none() && found.steady_parts.iter().any(|[first, last]| (*first..=*last).contains(&middle))
     };
     let mut pauses = pauses(&track, &found.stances, &frames);
     pauses.retain(|pause| !is_in_strides(pause));
     let movements = movements(&pauses, &strikes(&found.stances, &frames), &track, &frames);
-    let source = TransitionClip { index, found, mirrored: false };
+    let source = TransitionClip { index, found, mirrored: false, stated };
     let is_low = |movement: &Movement| {
         let [first, last] =
             movement.cuts.iter().fold([f64::INFINITY, 0.0], |[a, b], cut| [cut[0].min(a), cut[1].max(b)]);
@@ -81,9 +103,13 @@ fn of_clip(
             .into_iter()
             .any(|part| first - before < part.frames.end as f64 && part.frames.start as f64 <= last - before)
     };
-    let upright = movements.into_iter().filter(|movement| !is_low(movement));
+    let is_stated = |movement: &Movement| stated.is_none_or(|kind| movement_kind(kind) == movement.kind);
+    let upright = movements.into_iter().filter(|movement| is_stated(movement) && !is_low(movement));
     let found: Vec<RecordedTransition> =
         upright.filter_map(|movement| recorded_transition(&source, &movement, rows, body)).collect();
+    if let Some(kind) = stated {
+        return found.into_iter().filter(|transition| transition.kind == kind).collect();
+    }
     let is_within = |part: &RecordedTransition| {
         let between = found.iter().filter(|other| movement_kind(other.kind) == MovementKind::Between);
         between.into_iter().any(|whole| whole.cut[0] <= part.cut[0] && part.cut[1] <= whole.cut[1])
@@ -144,7 +170,8 @@ fn joined(found: RecordedTransition, name: String, clips: &[HumanClip], analyzed
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    use glam::{DVec2, Vec2};
+    use glam::{DQuat, DVec2, Vec2};
+    use motiondb::body::Joint;
     use motiondb::motion::{Action, MotionDb};
     use motiondb::validate::first_broken;
 
@@ -152,6 +179,7 @@ mod tests {
     use crate::ground::root_arc::{Rates, RootArc};
     use crate::ground::rotations::ground_rotation;
     use crate::synthetic::{SyntheticWalk, database_of, idle, steps, walk};
+    use crate::{Options, compile};
 
     /// 0 before a time, 1 after another, smooth between.
     fn ramp(time_s: f64, [from_s, to_s]: [f64; 2]) -> f64 {
@@ -276,6 +304,27 @@ mod tests {
             let db = set(clip);
             assert!(recorded(&db).is_empty(), "{:?}", recorded(&db).iter().map(|a| &a.name).collect::<Vec<_>>());
         }
+    }
+
+    #[test]
+    fn a_stated_start_may_be_unlike_the_examples() {
+        let root = |time_s: f64| (DVec2::new(1.2 * ramp_integral(time_s, [1.0, 1.9]), 0.3), 0.0);
+        let mut go = steps("go", 4.2, root, [&[0.5, 1.75, 2.85, 3.95], &[0.2, 2.3, 3.4, 4.5]]);
+        // Its arms are raised.
+        for pose in &mut go.frames {
+            for arm in Joint::UPPER_ARMS {
+                pose.rotations[arm.index()] = DQuat::from_rotation_y(-3.0) * pose.rotations[arm.index()];
+            }
+        }
+        assert_eq!(recorded(&set(go.clone())).len(), 0);
+        go.choices.transition = Some(ActionKind::Start);
+        let db = set(go.clone());
+        assert_eq!(recorded(&db).iter().map(|action| action.kind).collect::<Vec<_>>(), [ActionKind::Start]);
+        assert!(!db.examples.iter().any(|example| example.name == "go"));
+        go.choices.transition = Some(ActionKind::Stop);
+        let clips = vec![walk("walk", SyntheticWalk::default()), idle("idle", 3.0), go];
+        let error = compile(clips, &Options::default(), &|_| ()).unwrap_err();
+        assert!(matches!(error, CompileError::NoTransition { kind: ActionKind::Stop, .. }), "{error}");
     }
 
     #[test]
