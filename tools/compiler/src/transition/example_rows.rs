@@ -7,6 +7,7 @@
 use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
+use rayon::prelude::*;
 
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::ground::root_arc::{Rates, RootArc};
@@ -50,7 +51,7 @@ impl ExampleRows {
         Self {
             rates: cycles.iter().map(|named| named.cycle.rates).collect(),
             maps: cycles.iter().map(|named| named.cycle.steps.then_some(named.cycle.phase_map)).collect(),
-            states: cycles.iter().map(|named| states(&named.cycle, body)).collect(),
+            states: cycles.par_iter().map(|named| states(&named.cycle, body)).collect(),
             standing,
             reference: cycles.first().and_then(|named| named.cycle.rows.first()).map(|row| row.rotations),
         }
@@ -75,17 +76,33 @@ impl ExampleRows {
     /// The row of an example that steps which is most like an instant, in pose and velocity, and where the clip shows a
     /// second instant so much later (s; earlier where negative), also there: a body that still speeds up is like a slower
     /// walk only for an instant.
-    pub(crate) fn nearest_stepping(&self, state: &JointState, beside: Option<&(f64, JointState)>) -> Option<RowMatch> {
+    /// Rows that are farther than `limit_m` at either instant are not looked at.
+    pub(crate) fn nearest_stepping(
+        &self,
+        state: &JointState,
+        beside: Option<&(f64, JointState)>,
+        limit_m: f64,
+    ) -> Option<RowMatch> {
         let examples = (0..self.states.len()).filter(|&example| self.maps[example].is_some());
-        let rows = examples.flat_map(|example| (0..PHASE_COUNT).map(move |row| (example, row)));
-        let matches = rows.map(|(example, row)| {
+        let mut nearest: Option<RowMatch> = None;
+        for (example, row) in examples.flat_map(|example| (0..PHASE_COUNT).map(move |row| (example, row))) {
+            let most_m = nearest.map_or(limit_m, |found| found.distance_m);
+            if state.is_farther(&self.states[example][row], most_m) {
+                continue;
+            }
             let found = self.matched(state, example, row);
+            if found.distance_m > most_m {
+                continue;
+            }
             let of_second = beside.map(|(time_s, second)| {
                 self.matched(second, example, self.row_after(example, row, *time_s)).distance_m
             });
-            RowMatch { distance_m: found.distance_m.max(of_second.unwrap_or_default()), ..found }
-        });
-        matches.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
+            let distance_m = found.distance_m.max(of_second.unwrap_or_default());
+            if distance_m <= limit_m && nearest.is_none_or(|nearest| distance_m < nearest.distance_m) {
+                nearest = Some(RowMatch { distance_m, ..found });
+            }
+        }
+        nearest
     }
 
     /// The row of an example some time after another one, s.
@@ -150,7 +167,7 @@ mod tests {
                     &positions_m(frame + 1),
                     1.0 / 30.0,
                 );
-                let found = rows.nearest_stepping(&state, None).unwrap();
+                let found = rows.nearest_stepping(&state, None, 0.1).unwrap();
                 let phase = (frame as f64 / 66.0 - 0.37).rem_euclid(1.0);
                 assert_eq!(found.example, example);
                 assert!(found.distance_m < 0.02, "{found:?}");

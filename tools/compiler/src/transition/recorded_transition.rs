@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use motiondb::motion::{ACTION_RATE_HZ, ActionKind, PHASE_COUNT};
+use motiondb::quality::planted_feet::PLANTED_CONTACT;
 
 use crate::action::cut_action::sample_frames;
 use crate::action::joined_action::JoinedFrame;
@@ -154,8 +155,18 @@ pub(crate) fn recorded_transition(
     rows: &ExampleRows,
     body: &HumanBody,
 ) -> Option<RecordedTransition> {
+    // Several cuts share an end.
+    let mut known: [Vec<(f64, Option<RowMatch>)>; 2] = [Vec::new(), Vec::new()];
+    let mut matched = |cut: [f64; 2], end: usize| match known[end].iter().find(|(frame, _)| *frame == cut[end]) {
+        Some((_, found)) => *found,
+        None => {
+            let found = end_match(clip, movement, cut, end, rows, body);
+            known[end].push((cut[end], found));
+            found
+        }
+    };
     let fitting: Vec<([f64; 2], [RowMatch; 2])> =
-        movement.cuts.iter().filter_map(|&cut| Some((cut, matches(clip, movement, cut, rows, body)?))).collect();
+        movement.cuts.iter().filter_map(|&cut| Some((cut, [matched(cut, 0)?, matched(cut, 1)?]))).collect();
     let flaws_m = |ends: &[RowMatch; 2]| ends[0].distance_m + ends[1].distance_m;
     let least_m = fitting.iter().map(|(_, ends)| flaws_m(ends)).fold(f64::INFINITY, f64::min);
     let (cut, ends) = fitting.into_iter().find(|(_, ends)| flaws_m(ends) <= SHORTER_COUNTS * least_m + SAME_FIT_M)?;
@@ -175,30 +186,27 @@ pub(crate) fn recorded_transition(
     (is_sound(&found, movement.kind, body) && !jumps(&found.frames, rows)).then_some(found)
 }
 
-/// Where both ends of a cut meet the examples, if they fit.
-fn matches(
+/// Where an end of a cut meets the examples, if it fits.
+fn end_match(
     clip: &TransitionClip,
     movement: &Movement,
     cut: [f64; 2],
+    end: usize,
     rows: &ExampleRows,
     body: &HumanBody,
-) -> Option<[RowMatch; 2]> {
-    let at = |end: usize| {
-        let state = clip.state(cut[end], body);
-        if movement.kind.stands()[end] {
-            let limit_m = match (clip.stated, movement.is_cut[end]) {
-                (Some(_), _) => f64::INFINITY,
-                (None, true) => CUT_MAX_M,
-                (None, false) => REST_MAX_M,
-            };
-            let stands = clip.contacts(cut[end]).iter().all(|contact| *contact >= 0.5);
-            return rows.nearest_standing(&state).filter(|found| stands && found.pose_m <= limit_m);
-        }
-        let beside = clip.state_beside(cut, end, body);
-        rows.nearest_stepping(&state, beside.as_ref())
-            .filter(|found| clip.stated.is_some() || found.distance_m <= STRIKE_MAX_M)
+) -> Option<RowMatch> {
+    let state = clip.state(cut[end], body);
+    if !movement.kind.stands()[end] {
+        let limit_m = if clip.stated.is_some() { f64::INFINITY } else { STRIKE_MAX_M };
+        return rows.nearest_stepping(&state, clip.state_beside(cut, end, body).as_ref(), limit_m);
+    }
+    let limit_m = match (clip.stated, movement.is_cut[end]) {
+        (Some(_), _) => f64::INFINITY,
+        (None, true) => CUT_MAX_M,
+        (None, false) => REST_MAX_M,
     };
-    Some([at(0)?, at(1)?])
+    let stands = clip.contacts(cut[end]).iter().all(|contact| *contact >= PLANTED_CONTACT);
+    rows.nearest_standing(&state).filter(|found| stands && found.pose_m <= limit_m)
 }
 
 /// The frames of a cut about its root.
