@@ -82,6 +82,8 @@ fn validate_follows_its_schema_and_lists_every_invariant() {
         "parameters_follow_from_the_motion",
         "idles_are_loops",
         "actions_meet_their_examples",
+        "transitions_move_as_their_kind",
+        "transitions_have_no_jumps",
         "hulls_are_clockwise_and_convex",
         "hulls_wrap_their_examples",
         "half_planes_agree_with_the_hulls",
@@ -188,6 +190,25 @@ fn compile_follows_its_schema_and_lists_every_clip_once() {
     assert_eq!((&report["example_count"], &report["mirror_count"]), (&Value::from(2), &Value::from(1)));
     assert_eq!(report["used"].as_array().map(Vec::len), Some(1));
     assert!(!report["stages"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn compile_and_inspect_list_the_same_actions() {
+    let folder = folder("actions_schema");
+    let database = folder.join("motion.fbdb");
+    let clips = ["assets/clips/idle.bvh", "assets/clips/walk_110.bvh"];
+    let report = fbcrowd(&[&["compile", "-o", text(&database), "--json"], &clips[..]].concat()).expect_code(0).json();
+    check_schema("compile", &report);
+    let idle = &report["actions"][0];
+    assert_eq!((&idle["name"], &idle["kind"], &idle["source"]), (&"idle".into(), &"idle".into(), &"idle.bvh".into()));
+    assert_eq!((&idle["entry"]["example"], &idle["turn_rad"]), (&"idle".into(), &0.0.into()));
+    let [first_s, last_s] = [0, 1].map(|end| idle["window_s"][end].as_f64().unwrap());
+    assert!((last_s - first_s - idle["duration_s"].as_f64().unwrap()).abs() < 0.02, "{idle}");
+    let inspected = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(0).json();
+    check_schema("inspect", &inspected);
+    assert_eq!(inspected["actions"], report["actions"]);
+    let table = fbcrowd(&["inspect", text(&database)]).expect_code(0).stdout;
+    assert!(table.contains("idles, the best first") && table.contains("idle.bvh"), "{table}");
 }
 
 #[test]

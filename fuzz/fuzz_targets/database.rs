@@ -6,7 +6,7 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use motiondb::files::database_file;
-use motiondb::quality::example_quality;
+use motiondb::quality::{action_quality, example_quality};
 use motiondb::validate;
 use motiondb::files::container::{self, HEADER_LENGTH};
 
@@ -16,7 +16,7 @@ fuzz_target!(|bytes: &[u8]| {
     let payload = bytes.get(HEADER_LENGTH..).unwrap_or_default();
     if let Ok((db, _)) = database_file::from_bytes(path, &container::seal(database_file::MAGIC, database_file::VERSION, payload)) {
         if validate::validate(&db).iter().all(|check| check.broken.is_none()) {
-            let _ = example_quality::lint(&db);
+            let _ = (example_quality::lint(&db), action_quality::lint(&db));
         }
     }
 });

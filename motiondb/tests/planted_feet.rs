@@ -4,7 +4,8 @@ mod support;
 
 use glam::{DVec3, Quat};
 use motiondb::body::{JOINT_COUNT, Joint, Side};
-use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::motion::{Action, MotionDb, PHASE_COUNT};
+use motiondb::quality::action_quality;
 use motiondb::quality::example_quality::{lint, quality};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion};
 use support::small_db;
@@ -85,4 +86,43 @@ fn stiff_standing_legs_have_exact_figures() {
     let figures = quality(&small_db());
     assert!((figures[0].leg_extension_max - 1.0).abs() < 1e-6 && figures[0].knee_flexion_min_deg.abs() < 1e-3);
     assert_eq!((figures[0].seam_angle_ratio, figures[0].planted_share), (0.0, 1.0));
+}
+
+/// Checks that the fault of the start gives findings for exactly these measures.
+#[track_caller]
+fn check_finds_of_action(measures: &[&str], fault: impl Fn(&mut Action)) {
+    let mut db = small_db();
+    let before: Vec<&str> = action_quality::lint(&db).iter().map(|finding| finding.measure).collect();
+    fault(&mut db.actions[1]);
+    let found = action_quality::lint(&db);
+    let new = found.iter().filter(|finding| finding.example == "start" && !before.contains(&finding.measure));
+    assert_eq!(new.map(|finding| finding.measure).collect::<Vec<_>>(), measures, "{found:?}");
+}
+
+#[test]
+fn each_measure_finds_its_fault_in_an_action() {
+    check_finds_of_action(&[], |_| ());
+    // The hand-written start stands stiffly on a root that moves: its feet slide unless they are lifted.
+    check_finds_of_action(&[], |start| start.frames.iter_mut().for_each(|frame| frame.contacts = [0.0; 2]));
+    check_finds_of_action(&["penetration_mm"], |start| start.frames[5].pose.pelvis_m.z -= 0.2);
+    check_finds_of_action(&["range_excess_deg"], |start| {
+        start.frames[5].pose.rotations[Joint::LeftForearm.index()] = Quat::from_rotation_x(2.5);
+    });
+}
+
+#[test]
+fn planted_slide_of_an_action_is_the_speed_of_its_soles() {
+    let mut db = small_db();
+    let slide_cm_s = |db: &MotionDb| action_quality::quality(db, &db.actions[1]).planted_slide_cm_s;
+    // The stiff body moves with its root: from 0 to 1.2 m/s, evenly.
+    let found_cm_s = slide_cm_s(&db);
+    assert!((found_cm_s - 60.0).abs() < 1.0, "{found_cm_s}");
+    let frames = &mut db.actions[1].frames;
+    for frame in frames.iter_mut() {
+        frame.pose.pelvis_m.x -= frame.root.position_m.x;
+    }
+    let found_cm_s = slide_cm_s(&db);
+    assert!(found_cm_s < 0.01, "{found_cm_s}");
+    db.actions[1].frames.iter_mut().for_each(|frame| frame.contacts = [0.0; 2]);
+    assert_eq!(slide_cm_s(&db), 0.0);
 }

@@ -3,10 +3,10 @@
 mod support;
 
 use glam::{Quat, Vec2};
-use motiondb::body::JOINT_COUNT;
+use motiondb::body::{JOINT_COUNT, Root};
 use motiondb::motion::{ActionKind, MotionDb, PHASE_COUNT};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
-use motiondb::validate::validate;
+use motiondb::validate::{first_broken, validate};
 use motiondb::velocity_sets::velocity_hull::Construction;
 use support::small_db;
 
@@ -158,5 +158,35 @@ fn faults_of_actions_are_named() {
     check_breaks("actions_meet_their_examples", |db| db.actions[1].frames[0].root.facing_rad = 0.1);
     check_breaks("actions_meet_their_examples", |db| {
         db.actions[1].frames[72].root.position_m.x += 0.01;
+    });
+}
+
+/// Makes the start a movement on the spot, which turns by an angle and travels forward.
+fn stand_and_move(db: &mut MotionDb, kind: ActionKind, turn_rad: f32, moved_m: f32) {
+    let start = &mut db.actions[1];
+    (start.kind, start.exit) = (kind, start.entry);
+    let last = start.frames.len() - 1;
+    for (index, frame) in start.frames.iter_mut().enumerate() {
+        let share = index as f32 / last as f32;
+        let smooth = share * share * (3.0 - 2.0 * share);
+        frame.root = Root { position_m: Vec2::X * moved_m * smooth, facing_rad: turn_rad * smooth };
+    }
+}
+
+#[test]
+fn faults_of_transitions_are_named() {
+    for (kind, turn_rad, moved_m) in [(ActionKind::Turn, -1.0, 0.0), (ActionKind::Step, 0.0, 0.3)] {
+        let mut db = small_db();
+        stand_and_move(&mut db, kind, turn_rad, moved_m);
+        assert_eq!(first_broken(&db), None);
+        db.actions[1].frames[72].contacts[0] = 0.0;
+        assert_eq!(first_broken(&db).map(|(name, _)| name), Some("transitions_move_as_their_kind"));
+    }
+    check_breaks("transitions_move_as_their_kind", |db| stand_and_move(db, ActionKind::Turn, 0.3, 0.2));
+    check_breaks("transitions_move_as_their_kind", |db| stand_and_move(db, ActionKind::Step, 0.3, 0.0));
+    check_breaks("transitions_move_as_their_kind", |db| db.actions[1].frames[0].contacts[1] = 0.4);
+    check_breaks("transitions_have_no_jumps", |db| db.actions[1].frames[30].pose.pelvis_m.y += 0.2);
+    check_breaks("transitions_have_no_jumps", |db| {
+        db.actions[1].frames[30].pose.rotations[5] = Quat::from_rotation_x(1.2);
     });
 }

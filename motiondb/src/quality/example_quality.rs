@@ -7,12 +7,13 @@
 use glam::{Quat, Vec3};
 use serde::Serialize;
 
-use crate::body::joint_ranges::JOINT_RANGES_DEG;
-use crate::body::pose::Joints;
-use crate::body::skeleton::{JOINT_COUNT, Joint, Skeleton};
+use crate::body::pose::Pose;
+use crate::body::skeleton::JOINT_COUNT;
 use crate::motion::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use crate::motion::parameters::Parameters;
+use crate::quality::body_figures::BodyFigures;
 use crate::quality::coverage::RUN_MPS;
+use crate::quality::finding::{FigureLimit, Finding, up_to};
 use crate::statistics::median;
 
 /// Greatest usual slide of planted feet at rest, cm/s: clean walks slide by 2–8 (`docs/tuning.md`).
@@ -31,16 +32,6 @@ const SEAM_ANGLE_MAX: f32 = 2.0;
 const SEAM_VELOCITY_MAX: f32 = 4.0;
 /// Least median of both ratios, rad per joint and row: 0.05°, since smaller steps are not visible.
 const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
-/// Greatest depth of a sole below the ground, mm. The compiler permits 10, the give of pads and shoes; 20 is visible.
-const PENETRATION_MAX_MM: f32 = 20.0;
-/// Least flexion of a knee, degrees. People land on knees flexed by 3–5°; a straighter knee snaps.
-const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
-/// Greatest distance of hip and ankle, divided by thigh plus shank. The compiler's leg inverse kinematics ends at
-/// 0.9995 (a knee flexed by 3.6°), so a longer leg is the clip's own.
-const LEG_EXTENSION_MAX: f32 = 0.9997;
-/// Greatest turn of a joint beyond the published range, degrees: good clips exceed it by up to 42° (`docs/tuning.md`).
-const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
-
 /// Measures of one example.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExampleQuality {
@@ -66,34 +57,6 @@ pub struct ExampleQuality {
     pub range_excess_joint: &'static str,
 }
 
-/// A measure beyond its threshold.
-///
-/// ```no_run
-/// use motiondb::MotionDb;
-/// use motiondb::quality::example_quality::lint;
-///
-/// fn print_findings(db: &MotionDb) {
-///     for finding in lint(db) {
-///         println!("{}: {}", finding.example, finding.sentence);
-///     }
-/// }
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
-    /// Name of the example.
-    pub example: String,
-    /// Name of the measure: its field in [`ExampleQuality`].
-    pub measure: &'static str,
-    /// Value of the measure.
-    pub value: f32,
-    /// Threshold of the measure.
-    pub threshold: f32,
-    /// Unit of value and threshold; empty for ratios and shares.
-    pub unit: &'static str,
-    /// The finding as a text for people, without the example's name.
-    pub sentence: String,
-}
-
 /// Least suspect slide of planted feet, cm/s, at a body's speed over the ground.
 pub fn suspect_slide_cm_s(speed_mps: f32) -> f32 {
     SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps
@@ -107,26 +70,31 @@ pub fn quality(db: &MotionDb) -> Vec<ExampleQuality> {
 /// Findings for all measures beyond their thresholds, in order of examples. Mirrored examples repeat their originals
 /// and are left out. The database must be valid.
 pub fn lint(db: &MotionDb) -> Vec<Finding> {
-    let recorded = quality(db).into_iter().zip(&db.examples).filter(|(_, example)| !example.mirrored);
-    recorded.flat_map(|(found, example)| findings(&found, example)).collect()
+    let recorded = quality(db).into_iter().enumerate().filter(|(index, _)| !db.examples[*index].mirrored);
+    recorded.flat_map(|(index, found)| findings(db, index, &found)).collect()
 }
 
 fn example_quality(db: &MotionDb, index: usize) -> ExampleQuality {
-    let (example, joints) = (&db.examples[index], db.posed_rows(index));
+    let example = &db.examples[index];
     let [seam_angle_ratio, seam_velocity_ratio] = seam_ratios(&turns(db, index));
-    let (range_excess_deg, joint) = range_excess_deg(db, index);
+    let body = body_figures(db, index);
     ExampleQuality {
         example: example.name.clone(),
         planted_slide_cm_s: example.planted_slide_cm_s,
         planted_share: example.planted_share,
         seam_angle_ratio,
         seam_velocity_ratio,
-        penetration_mm: penetration_mm(&joints, &db.skeleton),
-        knee_flexion_min_deg: knee_flexion_min_deg(db, index),
-        leg_extension_max: leg_extension_max(&joints, &db.skeleton),
-        range_excess_deg,
-        range_excess_joint: joint.name(),
+        penetration_mm: body.penetration_mm,
+        knee_flexion_min_deg: body.knee_flexion_min_deg,
+        leg_extension_max: body.leg_extension_max,
+        range_excess_deg: body.range_excess_deg,
+        range_excess_joint: body.range_excess_joint,
     }
+}
+
+fn body_figures(db: &MotionDb, example: usize) -> BodyFigures {
+    let poses: Vec<Pose> = (0..PHASE_COUNT).map(|row| db.rows.pose(example, row)).collect();
+    BodyFigures::of(&poses, &db.posed_rows(example), &db.skeleton)
 }
 
 /// Turn of each joint from each row to the next (from the last to the first), as a rotation vector in the joint's
@@ -164,68 +132,10 @@ fn median_step_rad(steps_rad: &[f32]) -> f32 {
     median_rad.max(SEAM_STEP_MIN_RAD)
 }
 
-fn penetration_mm(rows: &[Joints], skeleton: &Skeleton) -> f32 {
-    let soles = rows.iter().flat_map(|joints| [0, 1].map(|side| joints.sole_points_m(skeleton, side)));
-    1000.0 * soles.flatten().map(|point| -point.z).fold(0.0, f32::max)
-}
-
-fn knee_flexion_min_deg(db: &MotionDb, example: usize) -> f32 {
-    let poses = (0..PHASE_COUNT).map(|row| db.rows.pose(example, row));
-    let flexions_rad = poses.flat_map(|pose| [0, 1].map(|side| pose.knee_flexion_rad(side)));
-    flexions_rad.fold(f32::INFINITY, f32::min).to_degrees()
-}
-
-fn leg_extension_max(rows: &[Joints], skeleton: &Skeleton) -> f32 {
-    let extension = |joints: &Joints, side: usize| {
-        let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
-        let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
-        joints.positions_m[thigh].distance(joints.positions_m[foot]) / leg_m
-    };
-    rows.iter().flat_map(|joints| [0, 1].map(|side| extension(joints, side))).fold(0.0, f32::max)
-}
-
-/// Greatest turn of a joint beyond its published range, degrees, and the joint.
-fn range_excess_deg(db: &MotionDb, example: usize) -> (f32, Joint) {
-    let mut worst = (0.0, Joint::Pelvis);
-    for row in 0..PHASE_COUNT {
-        for (joint, &rotation) in Joint::ALL.into_iter().zip(db.rows.rotations(example, row)) {
-            let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
-            let turned_deg = rotation.to_scaled_axis().map(f32::to_degrees);
-            let [least, greatest] = JOINT_RANGES_DEG[joint.index()].map(Vec3::from_array);
-            let excess_deg = (least - turned_deg).max(turned_deg - greatest).max_element();
-            if excess_deg > worst.0 {
-                worst = (excess_deg, joint);
-            }
-        }
-    }
-    worst
-}
-
-fn findings(found: &ExampleQuality, example: &MotionExample) -> Vec<Finding> {
-    let limits = contact_limits(found, example).into_iter().chain(seam_limits(found)).chain(body_limits(found));
+fn findings(db: &MotionDb, index: usize, found: &ExampleQuality) -> Vec<Finding> {
+    let of_contacts = contact_limits(found, &db.examples[index]);
+    let limits = of_contacts.into_iter().chain(seam_limits(found)).chain(body_figures(db, index).limits());
     limits.filter_map(|limit| limit.finding(&found.example)).collect()
-}
-
-/// A measure, its usual range, and the sentence of the finding beyond that range.
-struct FigureLimit {
-    measure: &'static str,
-    unit: &'static str,
-    value: f32,
-    range: [f32; 2],
-    sentence: String,
-}
-
-impl FigureLimit {
-    fn finding(self, example: &str) -> Option<Finding> {
-        let Self { measure, unit, value, range: [least, greatest], sentence } = self;
-        let threshold = if value < least { least } else { greatest };
-        let is_beyond = value < least || value > greatest;
-        is_beyond.then(|| Finding { example: example.to_owned(), measure, value, threshold, unit, sentence })
-    }
-}
-
-fn up_to(greatest: f32) -> [f32; 2] {
-    [f32::NEG_INFINITY, greatest]
 }
 
 fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [FigureLimit; 2] {
@@ -258,21 +168,5 @@ fn seam_limits(found: &ExampleQuality) -> [FigureLimit; 2] {
     [
         limit("seam_angle_ratio", angle, SEAM_ANGLE_MAX, jumps),
         limit("seam_velocity_ratio", velocity, SEAM_VELOCITY_MAX, jerks),
-    ]
-}
-
-fn body_limits(found: &ExampleQuality) -> [FigureLimit; 4] {
-    let (sunk_mm, flexed_deg) = (found.penetration_mm, found.knee_flexion_min_deg);
-    let (joint, excess_deg) = (found.range_excess_joint, found.range_excess_deg);
-    let limit = |measure, unit, value, range, sentence| FigureLimit { measure, unit, value, range, sentence };
-    let sinks = format!("a sole sinks {sunk_mm:.0} mm into the ground");
-    let straightens = format!("a knee straightens to {flexed_deg:.1}° of flexion: it snaps or bends backward");
-    let stretched = "a leg is stretched to its full length; it may be too short for the clip's steps".to_owned();
-    let turns = format!("{joint} turns {excess_deg:.0}° beyond the human range");
-    [
-        limit("penetration_mm", "mm", sunk_mm, up_to(PENETRATION_MAX_MM), sinks),
-        limit("knee_flexion_min_deg", "deg", flexed_deg, [KNEE_FLEXION_MIN_DEG, f32::INFINITY], straightens),
-        limit("leg_extension_max", "", found.leg_extension_max, up_to(LEG_EXTENSION_MAX), stretched),
-        limit("range_excess_deg", "deg", excess_deg, up_to(RANGE_EXCESS_MAX_DEG), turns),
     ]
 }

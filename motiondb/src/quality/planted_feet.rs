@@ -24,7 +24,7 @@ use crate::statistics::percentile;
 /// Least contact of a planted foot.
 pub const PLANTED_CONTACT: f64 = 0.5;
 /// Share of a contact that is cut from each of its ends: there the foot rolls on and off.
-const TRIMMED_SHARE: f64 = 0.1;
+pub(crate) const TRIMMED_SHARE: f64 = 0.1;
 /// Percentile of a point's heights over a cycle that is its planted height.
 const PLANTED_PERCENTILE: f64 = 0.05;
 /// Difference of two heights that counts as none, m: some rounding errors of a posed point. Two points are level in the
@@ -231,8 +231,8 @@ fn moved_with_root_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
     half_turn.rotate(half_turn.rotate(point_m) + DVec2::new(velocity.x, velocity.z) * (time_s * chord))
 }
 
-/// Index of the point of each row that is lowest above its planted height.
-fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
+/// Index of the point of a foot that is lowest above its planted height, in each row.
+pub(crate) fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
     let planted_m = [0, 1, 2]
         .map(|point: usize| percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default());
     let height_m = |foot: &[DVec3; 3], point: usize| foot[point].z - planted_m[point];

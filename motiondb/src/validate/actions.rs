@@ -28,6 +28,15 @@ const VELOCITY_TOLERANCE_MPS: f32 = 0.1;
 /// Greatest difference of the root's turn rate at an end from that of the example, rad/s.
 const TURN_RATE_TOLERANCE_RAD_S: f32 = 0.25;
 
+/// Least turn of a turn on the spot and of a pivot, rad: 30°.
+const TURN_MIN_RAD: f32 = std::f32::consts::PI / 6.0;
+/// Least displacement of a step, m.
+const STEP_MIN_M: f32 = 0.02;
+/// Greatest rotation of a joint from one frame to the next, rad: 3,400 °/s, more than any joint of a sprinter.
+const JUMP_MAX_RAD: f32 = 1.0;
+/// Greatest displacement of the pelvis in its root frame from one frame to the next, m: 9 m/s.
+const JUMP_MAX_M: f32 = 0.15;
+
 /// Checks every action; a fault names it.
 fn each_action(db: &MotionDb, check: impl Fn(&Action) -> CheckResult) -> CheckResult {
     let named = |action: &Action| check(action).map_err(|detail| format!("action {}: {detail}", action.name));
@@ -146,6 +155,48 @@ pub(crate) fn actions_meet_their_examples(db: &MotionDb) -> CheckResult {
                 format!("{} must {state} at the {word} frame, but {} does not", action.kind.name(), example.name)
             })?;
             meets(db, end, frames.map(|frame| &action.frames[frame].root), word)?;
+        }
+        Ok(())
+    })
+}
+
+/// Both feet of a transition stand where its kind states that the body stands. A turn and a pivot turn, a step travels.
+pub(crate) fn transitions_move_as_their_kind(db: &MotionDb) -> CheckResult {
+    each_action(db, |action| {
+        let ends = [(&action.frames[0], "first"), (&action.frames[action.frames.len() - 1], "last")];
+        for ((frame, word), stands) in ends.into_iter().zip(action.kind.stands()) {
+            let is_planted = frame.contacts.iter().all(|&contact| f64::from(contact) >= PLANTED_CONTACT);
+            ensure(!stands || is_planted, || format!("it stands at the {word} frame, but a foot is lifted there"))?;
+        }
+        let (turn_rad, moved_m) = (action.turn_rad().abs(), action.displacement_m().length());
+        match action.kind {
+            ActionKind::Turn | ActionKind::Pivot => ensure(turn_rad >= TURN_MIN_RAD, || {
+                format!("a {} turns by {turn_rad} rad, less than {TURN_MIN_RAD}", action.kind.name())
+            }),
+            ActionKind::Step => {
+                ensure(moved_m >= STEP_MIN_M, || format!("a step travels {moved_m} m, less than {STEP_MIN_M}"))
+            }
+            ActionKind::Idle | ActionKind::Start | ActionKind::Stop => Ok(()),
+        }
+    })
+}
+
+/// From one frame of a transition to the next no joint and no pelvis jumps; rotations stay in one hemisphere, so that
+/// times between frames can be interpolated.
+pub(crate) fn transitions_have_no_jumps(db: &MotionDb) -> CheckResult {
+    each_action(db, |action| {
+        if action.kind == ActionKind::Idle {
+            return Ok(());
+        }
+        let least_dot = libm::cosf(0.5 * JUMP_MAX_RAD);
+        for (index, pair) in action.frames.windows(2).enumerate() {
+            let [from, to] = [&pair[0].pose, &pair[1].pose];
+            let step_m = from.pelvis_m.distance(to.pelvis_m);
+            ensure(step_m <= JUMP_MAX_M, || format!("the pelvis jumps by {step_m} m after frame {index}"))?;
+            let jumps = |joint: &Joint| from.rotations[joint.index()].dot(to.rotations[joint.index()]) < least_dot;
+            if let Some(joint) = Joint::ALL.iter().find(|joint| jumps(joint)) {
+                return Err(format!("{} jumps after frame {index}", joint.name()));
+            }
         }
         Ok(())
     })

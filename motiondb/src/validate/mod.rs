@@ -72,7 +72,7 @@ const VALUES: [Invariant; 9] = [
 ];
 
 /// Third tier: consequences of the values.
-const CONSEQUENCES: [Invariant; 13] = [
+const CONSEQUENCES: [Invariant; 15] = [
     ("cycles_close", motion::cycles_close),
     ("landmarks_are_mid_stances", motion::landmarks_are_mid_stances),
     ("key_times_end_contacts", motion::key_times_end_contacts),
@@ -80,6 +80,8 @@ const CONSEQUENCES: [Invariant; 13] = [
     ("parameters_follow_from_the_motion", motion::parameters_follow_from_the_motion),
     ("idles_are_loops", actions::idles_are_loops),
     ("actions_meet_their_examples", actions::actions_meet_their_examples),
+    ("transitions_move_as_their_kind", actions::transitions_move_as_their_kind),
+    ("transitions_have_no_jumps", actions::transitions_have_no_jumps),
     ("hulls_are_clockwise_and_convex", velocity_sets::hulls_are_clockwise_and_convex),
     ("hulls_wrap_their_examples", velocity_sets::hulls_wrap_their_examples),
     ("half_planes_agree_with_the_hulls", velocity_sets::half_planes_agree_with_the_hulls),

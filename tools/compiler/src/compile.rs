@@ -11,7 +11,7 @@ use motiondb::validate::first_broken;
 use rayon::prelude::*;
 
 use crate::action::idles::idles;
-use crate::action::joined_action::joined_actions;
+use crate::action::joined_action::{in_order, joined_idles};
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
@@ -27,6 +27,7 @@ use crate::select::best_windows::{best_windows, windows_that_add};
 use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
+use crate::transition::transitions::transitions;
 
 /// Memory of each frame of an analysed clip beside its pose, bytes: its signatures, at 30 frames a second.
 const ANALYZED_FRAME_BYTES: usize = 300;
@@ -63,6 +64,7 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
     }
     match compile(clips, &manifest.options, observer) {
         Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
+        Err(CompileError::NoTransition { file, kind }) => Err(manifest.no_transition(&file, kind)),
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
         compiled => Ok(Compiled { db: compiled?, rejected }),
     }
@@ -75,16 +77,17 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
 ///    of near-equal ones.
 /// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
-/// 4. Cut the actions (`action`).
+/// 4. Cut the idles (`action`).
 /// 5. Keep the windows that add to the set ([`crate::select`]).
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
-/// 8. Join the actions to the examples.
+/// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
 /// 9. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
 /// 10. Check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
-/// If there are no clips, none gives an example, the chosen m_sp does not step, or the database is invalid.
+/// If there are no clips, none gives an example, the chosen m_sp does not step, a clip does not show the transition that
+/// is stated, or the database is invalid.
 ///
 /// # Examples
 /// ```
@@ -113,9 +116,11 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let unique = set.without_duplicates(&compared, analyzed);
     let cut = idles(&set.clips, &unique, &set.body);
     let adding = windows_that_add(unique);
-    let named = named_cycles(&set.clips, adding, &set.body)?;
+    let named = named_cycles(&set.clips, &adding, &set.body)?;
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
-    let actions = joined_actions(cut, &selected.cycles, &set.body);
+    let idles = joined_idles(cut, &selected.cycles, &set.body);
+    observer(CompileEvent::Stage("transitions"));
+    let actions = in_order(idles, transitions(&set.clips, &adding, &selected.cycles, &set.body)?);
     let db = assemble(selected, &actions, &set.body, options.velocity_hull, observer);
     observer(CompileEvent::Stage("validation"));
     valid(db)

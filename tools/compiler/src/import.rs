@@ -221,6 +221,7 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     human.unfit = unfit;
     human.choices.takes_any_posture = settings.takes_any_posture;
     human.choices.mirror = settings.mirror;
+    human.choices.transition = settings.transition;
     human.choices.is_cut = settings.frames.is_some();
     if !human.frames.iter().all(is_finite) {
         return Err(RejectionReason::Degenerate);

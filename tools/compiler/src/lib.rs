@@ -60,6 +60,7 @@ pub mod select;
 pub mod survey;
 #[cfg(test)]
 mod synthetic;
+mod transition;
 
 pub use compile::{Compiled, compile, compile_files, compile_manifest};
 pub use error::{CompileError, ManifestKey, Rejection, RejectionReason};

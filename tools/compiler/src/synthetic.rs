@@ -111,6 +111,44 @@ pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
     clip(name, body, poses, 60.0)
 }
 
+/// A body on a given path of the root (position, m, and facing, rad, by time, s), 60 frames per second. Each foot stands
+/// on the print that the root has at the middle of each of its stances, `[left, right]`, s; it swings for 0.4 s half-way
+/// between two of them.
+pub(crate) fn steps(
+    name: &str,
+    duration_s: f64,
+    root: impl Fn(f64) -> (DVec2, f64),
+    mid_stances_s: [&[f64]; 2],
+) -> HumanClip {
+    let body = body(1.0);
+    let frame = |frame: usize| {
+        let time_s = frame as f64 / 60.0;
+        let (root_m, facing_rad) = root(time_s);
+        let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
+        rotations[0] = DQuat::from_rotation_z(facing_rad);
+        rotations[Joint::LeftUpperArm.index()] = DQuat::from_rotation_x(-FRAC_PI_2 + 0.1);
+        rotations[Joint::RightUpperArm.index()] = DQuat::from_rotation_x(FRAC_PI_2 - 0.1);
+        let mut pose = HumanPose { pelvis_m: root_m.extend(0.8), rotations };
+        for (side, mids_s) in mid_stances_s.iter().enumerate() {
+            let begun = mids_s.partition_point(|mid_s| *mid_s <= time_s).max(1);
+            let (before_s, after_s) = (mids_s[begun - 1], mids_s[begun.min(mids_s.len() - 1)]);
+            let swing = ((time_s - 0.5 * (before_s + after_s)) / 0.4 + 0.5).clamp(0.0, 1.0);
+            let print = |mid_s: f64| {
+                let (root_m, facing_rad) = root(mid_s);
+                (root_m + ground_rotation(facing_rad) * DVec2::new(0.0, 0.09 - 0.18 * side as f64), facing_rad)
+            };
+            let ((from_m, from_rad), (to_m, to_rad)) = (print(before_s), print(after_s));
+            let share = 0.5 - 0.5 * libm::cos(PI * swing);
+            let ankle_m = from_m.lerp(to_m, share).extend(ANKLE_M + 0.1 * libm::sin(PI * swing));
+            let turn = DQuat::from_rotation_z(from_rad + share * (to_rad - from_rad));
+            leg_ik::place_foot(&mut pose, &body, side, ankle_m, turn);
+        }
+        pose
+    };
+    let poses = (0..=(duration_s * 60.0) as usize).map(frame).collect();
+    clip(name, body.clone(), poses, 60.0)
+}
+
 /// One performance of several clips: each begins at the position and the facing at which the one before ends.
 pub(crate) fn performance(name: &str, parts: &[HumanClip]) -> HumanClip {
     let mut frames: Vec<HumanPose> = Vec::new();

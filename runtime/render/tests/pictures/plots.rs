@@ -1,12 +1,16 @@
 //! Plots of any valid database can be drawn, and are the same in every run.
 
 use fbcrowd_render::plots::database::{
-    contact_sheet, coverage_slices, gait_events, parameter_space, pose_distances, velocity_space, write_database_plots,
+    contact_sheet, coverage_slices, gait_events, parameter_space, pose_distances, transition_sheet, velocity_space,
+    write_database_plots,
 };
 use glam::Vec2;
 use motiondb::blend_space::BlendSpace;
-use motiondb::body::Skeleton;
-use motiondb::motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::body::{Root, Skeleton};
+use motiondb::motion::{
+    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters,
+    PhaseMap, Rows,
+};
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use tiny_skia::Pixmap;
 
@@ -81,6 +85,39 @@ fn databases_of_any_size_are_drawn() {
             assert!(drawn == plot(&db), "drawing again gives another picture");
         }
     }
+}
+
+#[test]
+fn transitions_are_drawn_with_their_feet() {
+    let mut db = database(&[0.0, 1.0]);
+    let end = ActionEnd { example: 0, phase: 0.0 };
+    let frame = |index: usize| ActionFrame {
+        pose: db.rows.pose(0, index),
+        contacts: [1.0, f32::from(u8::from(index < 20))],
+        root: Root { position_m: Vec2::new(0.02 * index as f32, 0.0), facing_rad: 0.03 * index as f32 },
+    };
+    let turn = Action {
+        name: "turn".into(),
+        kind: ActionKind::Turn,
+        source: 0,
+        window_s: [0.0, 1.0],
+        mirrored: false,
+        entry: end,
+        exit: end,
+        frames: (0..60).map(frame).collect(),
+    };
+    let idle = Action { name: "idle".into(), kind: ActionKind::Idle, ..turn.clone() };
+    let mirror = Action { name: "mirror".into(), mirrored: true, ..turn.clone() };
+    db.actions = vec![idle, turn, mirror];
+    let drawn = transition_sheet(&db, &[1]);
+    assert!((0.02..0.5).contains(&inked_share(&drawn)), "{}", inked_share(&drawn));
+    assert!(drawn == transition_sheet(&db, &[1]), "drawing again gives another picture");
+    let folder = support::Scratch::new("transitions");
+    let files = write_database_plots(&db, folder.path()).unwrap();
+    assert!(files.iter().any(|file| file.ends_with("transitions.png")), "{files:?}");
+    db.actions.clear();
+    let files = write_database_plots(&db, folder.path()).unwrap();
+    assert!(!files.iter().any(|file| file.ends_with("transitions.png")), "{files:?}");
 }
 
 #[test]

@@ -44,16 +44,24 @@ pub(crate) struct JoinedFrame {
     pub(crate) root: (DVec2, f64),
 }
 
-/// The actions that join examples of the set: the idles in their order, then the transitions by kind and name.
-pub(crate) fn joined_actions(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
+/// The idles of the set in their order; none where it has no standing example.
+pub(crate) fn joined_idles(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
     let Some(standing) = best_standing(cycles) else { return Vec::new() };
-    let mut joined: Vec<JoinedAction> = cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect();
-    unique_names::make_unique(joined.iter_mut().map(|action| &mut action.name));
-    joined
+    cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect()
+}
+
+/// All actions of a set, each with its own name: the idles in their order, then the transitions by kind and name.
+pub(crate) fn in_order(idles: Vec<JoinedAction>, transitions: Vec<JoinedAction>) -> Vec<JoinedAction> {
+    let mut actions = idles;
+    let idle_count = actions.len();
+    actions.extend(transitions);
+    unique_names::make_unique(actions.iter_mut().map(|action| &mut action.name));
+    actions[idle_count..].sort_by(|a, b| (a.kind, &a.name).cmp(&(b.kind, &b.name)));
+    actions
 }
 
 /// Index of the standing example that the blend space uses: the one with the fewest flaws.
-fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
+pub(crate) fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
     let standing = (0..cycles.len()).filter(|&index| !cycles[index].cycle.steps);
     standing.min_by(|&a, &b| cycles[a].flaws.total_cmp(&cycles[b].flaws))
 }

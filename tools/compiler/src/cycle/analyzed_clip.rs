@@ -15,7 +15,7 @@ use crate::cycle::mean_stride::mean_stride;
 use crate::cycle::steady_cycle::SteadyCycle;
 use crate::gait::foot_stance::FootStance;
 use crate::gait::performer_gait::PerformerGait;
-use crate::gait::windows::{GaitWindow, WindowGait};
+use crate::gait::windows::{GaitWindow, WindowGait, searched_frames};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::posture::LowPart;
@@ -33,6 +33,10 @@ pub(crate) struct AnalyzedClip {
     pub(crate) windows: Vec<SteadyCycle>,
     /// Frames of the clip in which the body stands, in order of time; of a loop within its middle round.
     pub(crate) rests: Vec<Range<usize>>,
+    /// Stances of each foot, `[left, right]`.
+    pub(crate) stances: [Vec<FootStance>; 2],
+    /// First and last frame of each part in which the body steps steadily; of a loop counted in one round.
+    pub(crate) steady_parts: Vec<[f64; 2]>,
     /// Diagnostics of the clip as a whole.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Steady windows that give no example beside others.
@@ -78,22 +82,32 @@ impl AnalyzedClip {
             }
             Err(unfit) => reasons.push(unfit),
         }
+        if clip.choices.transition.is_some() {
+            (windows, reasons) = (Vec::new(), Vec::new());
+        }
         let standing_flaws = standing_flaws(clip);
         windows
             .iter_mut()
             .filter(|window| window.stepping().is_none())
             .for_each(|window| window.flaws += standing_flaws);
+        let stances = performer.gait.clearest_stances().clone();
+        let steady_parts = performer.gait.steady_parts();
         let rests = performer.gait.rests;
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
             let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, rests, diagnostics, left_out };
+            return Self { grounded, frame_count, windows, rests, stances, steady_parts, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
         let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
         let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
-        Self { grounded, frame_count, windows, rests, diagnostics, left_out }
+        Self { grounded, frame_count, windows, rests, stances, steady_parts, diagnostics, left_out }
+    }
+
+    /// The frames in which something is searched: all, or the middle round of a loop.
+    pub(crate) fn searched_frames(&self) -> Range<usize> {
+        searched_frames(self.grounded.frame_count(), self.grounded.loop_frames())
     }
 
     /// Duration from the first frame to the last, s.

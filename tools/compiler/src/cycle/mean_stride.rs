@@ -13,7 +13,7 @@ use motiondb::motion::{PHASE_COUNT, PhaseMap};
 
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::cycle::loop_closure::StrideGap;
-use crate::gait::foot_stance::FootStance;
+use crate::gait::foot_stance::{FootStance, depth_s};
 use crate::gait::stride::Stride;
 use crate::ground::foot_grounding;
 use crate::ground::grounded_clip::GroundedClip;
@@ -59,7 +59,7 @@ pub fn mean_stride(
 }
 
 /// Contact of a foot at a depth in a stance (s): ½ at the end of the stance.
-fn contact(depth_s: f64) -> f64 {
+pub(crate) fn contact(depth_s: f64) -> f64 {
     (0.5 + depth_s / CONTACT_RAMP_S).clamp(0.0, 1.0)
 }
 
@@ -90,14 +90,9 @@ impl StrideReader<'_> {
     /// contacts to where only half of the strides have them.
     fn contact_depths_s(&self, phase: f64) -> [f64; 2] {
         let frame = self.frame(phase);
-        self.stances.each_ref().map(|stances| {
-            // Stances are in order of time: the nearest is the last that has begun, or the next.
-            let next = stances.partition_point(|stance| stance.strike_frame <= frame);
-            let nearest = &stances[next.saturating_sub(1)..(next + 1).min(stances.len())];
-            let depths = nearest.iter().map(|stance| stance.depth_frames(frame));
-            let deepest_s = depths.fold(f64::NEG_INFINITY, f64::max) / self.clip.frame_rate_hz;
-            deepest_s.clamp(-DEPTH_MAX_S, DEPTH_MAX_S)
-        })
+        self.stances
+            .each_ref()
+            .map(|stances| depth_s(stances, frame, self.clip.frame_rate_hz).clamp(-DEPTH_MAX_S, DEPTH_MAX_S))
     }
 
     /// Share of the cycle by which the fades reach beyond both ends.

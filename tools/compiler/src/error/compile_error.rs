@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use motiondb::files::{Invalid, input_file};
-use motiondb::motion::SourceRecord;
+use motiondb::motion::{ActionKind, SourceRecord};
 
 use crate::error::Rejection;
 
@@ -66,6 +66,18 @@ pub enum CompileError {
         /// Names of the clip's examples that step. Not empty where the choice named another window of the clip.
         stepping: Vec<String>,
     },
+    /// A clip does not show the transition that a manifest states.
+    #[error(
+        "{file}: no {} was found; {}",
+        kind.name(),
+        transition_remedy(*kind)
+    )]
+    NoTransition {
+        /// File of the clip.
+        file: String,
+        /// The stated kind.
+        kind: ActionKind,
+    },
     /// The database breaks an invariant: a defect of the clips that no earlier stage detects.
     #[error(
         "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"
@@ -95,6 +107,18 @@ impl From<Invalid> for CompileError {
     fn from(invalid: Invalid) -> Self {
         Self::InvalidManifest(Box::new(invalid))
     }
+}
+
+/// What a clip of a transition shows, and what else to do.
+pub(crate) fn transition_remedy(kind: ActionKind) -> String {
+    let shows = match kind {
+        ActionKind::Start => "the body must stand, both feet planted, and then make at least two steps",
+        ActionKind::Stop => "the body must make at least two steps and then stand, both feet planted",
+        ActionKind::Idle | ActionKind::Turn => "the body must stand, turn by at least 45° on the spot, and stand again",
+        ActionKind::Step => "the body must stand, make one to three steps without a turn, and stand again",
+        ActionKind::Pivot => "the body must walk, turn by at least 60° within 3 s, and walk on",
+    };
+    format!("{shows}; state another kind (start, stop, turn, step, pivot), or remove the key")
 }
 
 /// One clause for each rejection and each source.

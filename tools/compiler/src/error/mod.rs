@@ -7,4 +7,5 @@ mod compile_error;
 mod rejection;
 
 pub use compile_error::CompileError;
+pub(crate) use compile_error::transition_remedy;
 pub use rejection::{ManifestKey, Rejection, RejectionReason};

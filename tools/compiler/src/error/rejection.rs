@@ -191,4 +191,6 @@ pub enum ManifestKey {
     Forward,
     /// `joints`: the source joint of this role.
     Joint(Joint),
+    /// `transition`: the kind of transition that the clip shows.
+    Transition,
 }

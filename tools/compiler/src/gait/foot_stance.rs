@@ -37,6 +37,15 @@ pub(crate) fn stands_at(stances: &[FootStance], frame: f64) -> bool {
     stances[..begun].last().is_some_and(|stance| frame <= stance.off_frame)
 }
 
+/// Depth of a frame in these stances, in order of time: seconds to the nearer end of the stance, negative outside of all.
+pub(crate) fn depth_s(stances: &[FootStance], frame: f64, frame_rate_hz: f64) -> f64 {
+    // Stances are in order of time: the nearest is the last that has begun, or the next.
+    let next = stances.partition_point(|stance| stance.strike_frame <= frame);
+    let nearest = &stances[next.saturating_sub(1)..(next + 1).min(stances.len())];
+    let depths = nearest.iter().map(|stance| stance.depth_frames(frame));
+    depths.fold(f64::NEG_INFINITY, f64::max) / frame_rate_hz
+}
+
 /// The stances of one foot, in order of time. `feet` holds heel on the sole, ball and toe tip at each frame, `planted`
 /// whether the foot is planted.
 pub(crate) fn foot_stances(

@@ -165,6 +165,12 @@ impl GaitAnalysis {
         let reading = self.windows.as_ref().ok().and_then(|windows| windows.first()).map_or(0, |window| window.reading);
         &self.stances[reading]
     }
+
+    /// First and last frame of each window of strides; of a loop counted in one round.
+    pub(crate) fn steady_parts(&self) -> Vec<[f64; 2]> {
+        let windows = self.windows.iter().flatten();
+        windows.filter(|window| matches!(window.gait, WindowGait::Steps(_))).map(|window| window.frames).collect()
+    }
 }
 
 /// The windows of a clip, in three cases:
@@ -213,7 +219,7 @@ fn rests(
 
 /// The frames of a clip in which windows are searched. A loop that is not steady is a capture that ends as it began: its
 /// middle copy has all of it.
-fn searched_frames(frame_count: usize, loop_frames: Option<usize>) -> Range<usize> {
+pub(crate) fn searched_frames(frame_count: usize, loop_frames: Option<usize>) -> Range<usize> {
     loop_frames.map_or(0..frame_count, |round| round..2 * round + 1)
 }
 

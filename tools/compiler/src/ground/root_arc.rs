@@ -84,11 +84,7 @@ impl RootArc {
 
     /// A pose of the world in the frame of the root at a time.
     pub fn relative(&self, pose: &HumanPose, time_s: f64) -> HumanPose {
-        let (position_m, facing_rad) = self.at(time_s);
-        let ground_m = ground_rotation(-facing_rad) * (pose.pelvis_m.truncate() - position_m);
-        let mut rotations = pose.rotations;
-        rotations[0] = DQuat::from_rotation_z(-facing_rad) * rotations[0];
-        HumanPose { pelvis_m: ground_m.extend(pose.pelvis_m.z), rotations }
+        relative_to(self.at(time_s), pose)
     }
 
     /// The arc of a stride: hips equal in the root frame at both ends, residuals of mean zero between them.
@@ -124,6 +120,14 @@ impl RootArc {
         self.rates.speed_mps = velocity_mps.x;
         self.rates.strafe_mps = velocity_mps.y;
     }
+}
+
+/// A pose of the world in the frame of a root with a position (m) and a facing (rad).
+pub(crate) fn relative_to((position_m, facing_rad): (DVec2, f64), pose: &HumanPose) -> HumanPose {
+    let ground_m = ground_rotation(-facing_rad) * (pose.pelvis_m.truncate() - position_m);
+    let mut rotations = pose.rotations;
+    rotations[0] = DQuat::from_rotation_z(-facing_rad) * rotations[0];
+    HumanPose { pelvis_m: ground_m.extend(pose.pelvis_m.z), rotations }
 }
 
 /// J(a): the mean of all rotations from 0 to a.

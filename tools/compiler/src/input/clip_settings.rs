@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::ActionKind;
 
 use crate::error::{ManifestKey, RejectionReason};
 use crate::input::name_suggestions::nearest_first;
@@ -52,6 +53,8 @@ pub struct ClipSettings {
     pub mirror: Option<bool>,
     /// Whether parts in which the body kneels, crawls or crouches give examples, too.
     pub takes_any_posture: bool,
+    /// The kind of transition that the clip shows; it then gives no example.
+    pub transition: Option<ActionKind>,
     /// Whether a glTF file's buffers may lie outside its folder; no manifest can allow it.
     pub outside: Outside,
     /// Positions of these values in the manifest's text, for messages.

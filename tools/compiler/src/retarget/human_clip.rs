@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::Unfit;
-use motiondb::motion::SourceRecord;
+use motiondb::motion::{ActionKind, SourceRecord};
 
 use crate::retarget::posture::LowPart;
 
@@ -52,6 +52,8 @@ pub struct Choices {
     pub is_cut: bool,
     /// Whether parts in which the body is not upright give examples, too.
     pub takes_any_posture: bool,
+    /// The kind of transition that the clip shows; it then gives no example.
+    pub transition: Option<ActionKind>,
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), m.

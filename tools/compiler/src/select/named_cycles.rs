@@ -64,22 +64,22 @@ impl SelectedCycles {
 /// If the clip that a manifest chose as m_sp does not step.
 pub(crate) fn named_cycles(
     clips: &[HumanClip],
-    analyzed: Vec<AnalyzedClip>,
+    analyzed: &[AnalyzedClip],
     body: &HumanBody,
 ) -> Result<SelectedCycles, CompileError> {
-    let sources = clips.iter().zip(&analyzed).map(|(clip, found)| found.record(clip)).collect();
-    let base_walk = base_walk_window(clips, &analyzed)?;
+    let sources = clips.iter().zip(analyzed).map(|(clip, found)| found.record(clip)).collect();
+    let base_walk = base_walk_window(clips, analyzed)?;
     let base_cycle = base_walk.and_then(|WindowId { clip, window }| analyzed[clip].windows[window].stepping());
     let period_s = base_cycle.map_or(STANDING_PERIOD_S, |cycle| f64::from(cycle.phase_map.period_s));
     let mut cycles = Vec::new();
     for (source, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
         let AnalyzedClip { grounded, frame_count, windows, .. } = found;
-        for (index, SteadyCycle { window_s, motion, flaws, .. }) in windows.into_iter().enumerate() {
+        for (index, &SteadyCycle { window_s, ref motion, flaws, .. }) in windows.iter().enumerate() {
             let cycle = match motion {
-                SteadyMotion::Steps(cycle) => *cycle,
-                SteadyMotion::Stands(frames) => standing_cycle(&grounded, body, frames, period_s),
+                SteadyMotion::Steps(cycle) => GaitCycle::clone(cycle),
+                SteadyMotion::Stands(frames) => standing_cycle(grounded, body, frames.clone(), period_s),
             };
-            let name = window_name(clip, frame_count, index, window_s);
+            let name = window_name(clip, *frame_count, index, window_s);
             let is_semi_procedural = base_walk == Some(WindowId { clip: source, window: index });
             let choices = Choices { is_semi_procedural, ..clip.choices };
             cycles.push(NamedCycle { name, source: source as u32, window_s, mirrored: false, choices, flaws, cycle });

@@ -1,20 +1,22 @@
 //! The report of `fbcrowd compile`: its JSON, and all that its text is made of.
 //!
-//! Every clip is in exactly one list: `used` (it gives examples), `unused` (a clip of human motion without examples) or
-//! `refused` (it cannot be read, or shows no human).
+//! Every clip is in exactly one list: `used` (it gives examples or actions), `unused` (a clip of human motion that gives
+//! neither) or `refused` (it cannot be read, or shows no human).
 
 use std::path::Path;
 
-use fbcrowd_jobs::json_schema::motion::{CoverageGapMirror, ExampleQualityMirror, FindingMirror};
+use fbcrowd_jobs::json_schema::motion::{ActionKindMirror, CoverageGapMirror, ExampleQualityMirror, FindingMirror};
 use fbcrowd_jobs::stages::StageTime;
 use motiondb::diagnostic::{Diagnostic, Severity};
-use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
+use motiondb::motion::{ActionKind, MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, CoverageGap};
-use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
+use motiondb::quality::example_quality::{self, ExampleQuality};
+use motiondb::quality::finding::Finding;
 use motiondb_compiler::Rejection;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::action_report::{self, ActionReport, action_reports};
 use crate::report::json_diagnostic;
 
 /// The result of a compilation.
@@ -30,14 +32,19 @@ pub(crate) struct CompileReport {
     pub(crate) simplex_count: usize,
     /// Files and clips that were rejected.
     pub(crate) refused: Vec<UnusedClip>,
-    /// Clips of human motion that give no example.
+    /// Clips of human motion that give neither examples nor actions.
     pub(crate) unused: Vec<UnusedClip>,
     /// Sentences of the notes and warnings among `diagnostics`.
     pub(crate) warnings: Vec<ClipWarning>,
     /// Diagnostics of all clips of human motion.
     pub(crate) diagnostics: Vec<ClipDiagnostic>,
-    /// Clips that give examples.
+    /// Clips that give examples or actions.
     pub(crate) used: Vec<UsedClip>,
+    /// Idles, the best first, and transitions.
+    pub(crate) actions: Vec<ActionReport>,
+    /// Kinds of transitions that the set lacks; bodies do without them.
+    #[schemars(with = "Vec<ActionKindMirror>")]
+    pub(crate) missing_transitions: Vec<ActionKind>,
     /// Quality of the motion of every example, mirrored ones included.
     #[schemars(with = "Vec<ExampleQualityMirror>")]
     pub(crate) quality: Vec<ExampleQuality>,
@@ -89,15 +96,17 @@ pub(crate) struct ClipWarning {
     text: String,
 }
 
-/// A clip that gives examples.
+/// A clip that gives examples or actions.
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct UsedClip {
     /// File of the clip.
     pub(crate) file: String,
     /// Name of the clip within the file; empty where the file holds one.
     pub(crate) clip: String,
-    /// Examples made from the clip.
+    /// Examples made from the clip; empty where it gives actions alone.
     pub(crate) examples: Vec<ExampleReport>,
+    /// Names of the actions made from the clip.
+    pub(crate) actions: Vec<String>,
 }
 
 /// One example of a clip.
@@ -120,12 +129,15 @@ pub(crate) struct ExampleReport {
 impl CompileReport {
     /// The report of a database, without `next`; `output` is none where it was not written.
     pub(crate) fn new(output: Option<&Path>, db: &MotionDb, rejected: Vec<Rejection>, stages: Vec<StageTime>) -> Self {
+        let actions = action_reports(db);
         let mut report = Self {
             output: output.map(|path| path.display().to_string()),
             example_count: db.examples.len(),
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
             simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
             refused: rejected.into_iter().map(UnusedClip::from).collect(),
+            missing_transitions: action_report::missing(&actions),
+            actions,
             quality: example_quality::quality(db),
             findings: example_quality::lint(db),
             coverage: coverage::coverage(db),
@@ -133,8 +145,10 @@ impl CompileReport {
             ..Self::default()
         };
         for (index, source) in db.sources.iter().enumerate() {
-            let of_source = db.examples.iter().filter(|example| example.source as usize == index);
-            report.add(source, of_source.map(ExampleReport::from).collect());
+            let examples = db.examples.iter().filter(|example| example.source as usize == index);
+            let actions = db.actions.iter().filter(|action| action.source as usize == index);
+            let names = actions.map(|action| action.name.clone()).collect();
+            report.add(source, examples.map(ExampleReport::from).collect(), names);
         }
         report
     }
@@ -143,12 +157,12 @@ impl CompileReport {
     pub(crate) fn without_examples(rejected: Vec<Rejection>, sources: &[SourceRecord]) -> Self {
         let refused = rejected.into_iter().map(UnusedClip::from).collect();
         let mut report = Self { refused, ..Self::default() };
-        sources.iter().for_each(|source| report.add(source, Vec::new()));
+        sources.iter().for_each(|source| report.add(source, Vec::new(), Vec::new()));
         report
     }
 
     /// Adds a clip of human motion.
-    fn add(&mut self, source: &SourceRecord, examples: Vec<ExampleReport>) {
+    fn add(&mut self, source: &SourceRecord, examples: Vec<ExampleReport>, actions: Vec<String>) {
         let (file, clip) = (source.file.clone(), source.clip.clone());
         let mut reasons = Vec::new();
         for diagnostic in &source.diagnostics {
@@ -162,10 +176,10 @@ impl CompileReport {
             }
             self.diagnostics.push(ClipDiagnostic { file, clip, diagnostic: diagnostic.clone() });
         }
-        if examples.is_empty() {
+        if examples.is_empty() && actions.is_empty() {
             self.unused.push(UnusedClip { file, clip, reason: reasons.join("; ") });
         } else {
-            self.used.push(UsedClip { file, clip, examples });
+            self.used.push(UsedClip { file, clip, examples, actions });
         }
     }
 

@@ -9,9 +9,9 @@ use motiondb::diagnostic::Severity;
 use motiondb::motion::SourceRecord;
 
 use crate::report::compile_report::{CompileReport, UnusedClip};
-use crate::report::example_table;
 use crate::report::plain_text::{one_line, title};
 use crate::report::sentence_groups::group;
+use crate::report::{action_report, example_table};
 
 /// Most lines of a section; the others are counted.
 const SHOWN_LINES: usize = 100;
@@ -21,6 +21,8 @@ const SHOWN_CLIPS: usize = 12;
 /// velocity.
 const EXAMPLES: &str =
     "examples, worst first (! beyond its threshold; seam, jerk: in the cycle's usual step; leg: in its length)";
+/// Head of the table of actions.
+pub(crate) const ACTIONS: &str = "idles, the best first, and transitions (! has findings)";
 /// Columns of a line.
 const WIDTH: usize = 110;
 
@@ -32,7 +34,8 @@ pub(crate) fn text(report: &CompileReport) -> String {
         section("no example", grouped(report.unused.iter().map(reason))),
         section("warnings", grouped(diagnostics(report, Severity::Warning))),
         section(EXAMPLES, example_table::lines(report)),
-        section("quality", grouped(findings(report))),
+        section(ACTIONS, action_report::lines(&report.actions)),
+        section("quality", grouped(findings(report).chain(action_report::findings(&report.actions)))),
         section("notes: nothing to do", grouped(diagnostics(report, Severity::Note))),
         section("coverage gaps", report.coverage.iter().map(|gap| gap.sentence.clone()).collect()),
         section("next", report.next.clone()),
@@ -89,11 +92,12 @@ fn headline(report: &CompileReport) -> String {
         warned.len(),
     );
     let made = format!(
-        "{}: {} recorded, {} mirrored; {}\n",
+        "{}: {} recorded, {} mirrored; {}; {}\n",
         counted(report.example_count, "example", "examples"),
         report.example_count - report.mirror_count,
         report.mirror_count,
         counted(report.simplex_count, "simplex", "simplices"),
+        action_report::counts(&report.actions),
     );
     let total_s: f64 = report.stages.iter().map(|stage| stage.seconds).sum();
     let stages = report.stages.iter().map(|stage| format!("{} {:.2}", stage.name, stage.seconds));
@@ -101,7 +105,7 @@ fn headline(report: &CompileReport) -> String {
 }
 
 /// A blank line, a head, and the lines; empty without lines.
-fn section(head: &str, lines: Vec<String>) -> String {
+pub(crate) fn section(head: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();
     }
@@ -114,7 +118,7 @@ fn section(head: &str, lines: Vec<String>) -> String {
 }
 
 /// Of a sentence about several clips, the number of clips and their names; else the clip and its sentence.
-fn grouped(sentences: impl IntoIterator<Item = (String, String)>) -> Vec<String> {
+pub(crate) fn grouped(sentences: impl IntoIterator<Item = (String, String)>) -> Vec<String> {
     let mut lines = Vec::new();
     for group in group(sentences) {
         match &group.subjects[..] {

@@ -12,6 +12,7 @@ use motiondb_compiler::survey::{SourceGait, SurveyedSource};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::action_report::{ActionReport, action_reports};
 use crate::report::character_report::CharacterReport;
 use crate::report::compile_report::UnusedClip;
 use crate::report::correspondence_table::CorrespondenceTable;
@@ -90,6 +91,8 @@ pub(crate) struct BrokenInvariant {
 pub(crate) struct DatabaseReport {
     /// Examples of motion.
     pub(crate) examples: Vec<InspectedExample>,
+    /// Idles, the best first, and transitions.
+    pub(crate) actions: Vec<ActionReport>,
     /// Clips that the examples come from.
     sources: Vec<InspectedClip>,
     /// Velocities that the examples allow.
@@ -166,6 +169,7 @@ impl DatabaseReport {
         let name = |example: u32| db.examples[example as usize].name.clone();
         Self {
             examples: db.examples.iter().map(|example| InspectedExample::new(example, &db.sources)).collect(),
+            actions: action_reports(db),
             sources: db.sources.iter().map(|source| InspectedClip::new(source, None)).collect(),
             velocity_hull: db.velocity_hull.clone(),
             blend_space: BlendSpaceReport {

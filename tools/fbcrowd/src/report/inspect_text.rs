@@ -10,12 +10,17 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BlendSpaceReport, Correspondence, DatabaseReport, InspectedExample};
 use crate::report::plain_text::{one_line, title, unsigned_zero};
-use crate::report::{compile_text, leave_one_out_text};
+use crate::report::{action_report, compile_text, leave_one_out_text};
 
 /// A database as tables.
 pub(crate) fn database_text(db: &MotionDb, report: &DatabaseReport) -> String {
     let sections = [
         examples_text(&report.examples),
+        compile_text::section(compile_text::ACTIONS, action_report::lines(&report.actions)),
+        compile_text::section(
+            "findings about actions",
+            compile_text::grouped(action_report::findings(&report.actions)),
+        ),
         sets_text(&report.velocity_hull),
         blend_space_text(&report.blend_space),
         correspondence_text(report.correspondence.as_ref()),

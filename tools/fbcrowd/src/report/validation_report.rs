@@ -2,7 +2,9 @@
 
 use fbcrowd_jobs::json_schema::motion::{ExampleQualityMirror, FindingMirror};
 use motiondb::motion::MotionDb;
-use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
+use motiondb::quality::action_quality;
+use motiondb::quality::example_quality::{self, ExampleQuality};
+use motiondb::quality::finding::Finding;
 use motiondb::validate::{self, Check};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -14,7 +16,8 @@ pub(crate) struct ValidationReport {
     pub(crate) valid: bool,
     /// The invariants.
     pub(crate) checks: Vec<InvariantCheck>,
-    /// Quality figures beyond their threshold; empty where an invariant is broken. Mirrored examples are left out.
+    /// Quality figures of examples and actions beyond their threshold; empty where an invariant is broken. Mirrored
+    /// ones are left out.
     #[schemars(with = "Vec<FindingMirror>")]
     pub(crate) findings: Vec<Finding>,
     /// Quality figures of every example, mirrored ones included; empty where an invariant is broken.
@@ -42,8 +45,7 @@ impl ValidationReport {
             [checksum].into_iter().chain(validate::validate(db)).map(InvariantCheck::from).collect();
         let valid = checks.iter().all(|check| check.holds);
         // Figures of an unsound database mean nothing.
-        let (findings, quality) =
-            if valid { (example_quality::lint(db), example_quality::quality(db)) } else { Default::default() };
+        let (findings, quality) = if valid { (lint(db), example_quality::quality(db)) } else { Default::default() };
         Self { valid, checks, findings, quality }
     }
 
@@ -56,6 +58,11 @@ impl ValidationReport {
         let finding = |finding: &Finding| format!("warning  {}: {}\n", finding.example, finding.sentence);
         self.checks.iter().map(check).chain(self.findings.iter().map(finding)).collect()
     }
+}
+
+/// Findings about examples, then about actions.
+fn lint(db: &MotionDb) -> Vec<Finding> {
+    example_quality::lint(db).into_iter().chain(action_quality::lint(db)).collect()
 }
 
 impl From<Check> for InvariantCheck {

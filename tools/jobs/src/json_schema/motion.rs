@@ -30,13 +30,13 @@ pub struct ExampleQualityMirror {
     range_excess_joint: String,
 }
 
-/// Mirror of [`motiondb::quality::example_quality::Finding`].
+/// Mirror of [`motiondb::quality::finding::Finding`].
 #[derive(JsonSchema)]
 #[schemars(rename = "Finding", description = "A quality measure beyond its threshold.")]
 pub struct FindingMirror {
-    /// Name of the example.
+    /// Name of the example, or of the action.
     example: String,
-    /// Name of the measure, a key of `quality[]`.
+    /// Name of the measure: a key of `quality[]`, of which actions have some.
     measure: String,
     /// The value, in `unit`.
     value: f32,
@@ -46,6 +46,24 @@ pub struct FindingMirror {
     unit: String,
     /// The finding as a sentence.
     sentence: String,
+}
+
+/// Mirror of [`motiondb::motion::ActionKind`].
+#[derive(JsonSchema)]
+#[schemars(rename = "ActionKind", rename_all = "snake_case", description = "What a body does in an action.")]
+pub enum ActionKindMirror {
+    /// It stands; the last frame is the first one again.
+    Idle,
+    /// It stands, then walks or runs.
+    Start,
+    /// It walks or runs, then stands.
+    Stop,
+    /// It turns on the spot, and stands before and after.
+    Turn,
+    /// It makes one or two steps forward, backward or aside, and stands before and after.
+    Step,
+    /// It walks or runs, turns sharply within a few steps, and walks or runs on.
+    Pivot,
 }
 
 /// Mirror of [`motiondb::quality::coverage::CoverageGap`].

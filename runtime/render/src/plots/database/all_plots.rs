@@ -16,6 +16,7 @@ use crate::plots::database::coverage::coverage_slices;
 use crate::plots::database::gait_events::{self, gait_events};
 use crate::plots::database::parameter_space::parameter_space;
 use crate::plots::database::pose_distances::pose_distances;
+use crate::plots::database::transition_sheet::{self, recorded_transitions, transition_sheet};
 use crate::plots::database::velocity_space::velocity_space;
 use crate::raster::png_frame;
 
@@ -53,7 +54,10 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
         .map(|(suffix, examples)| (format!("gait_events{suffix}.png"), gait_events(db, examples)));
     let bodies = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
         .map(|(suffix, examples)| (format!("contact_sheet{suffix}.png"), contact_sheet(db, examples)));
-    single.chain(gaits).chain(bodies).map(write).collect()
+    let recorded = recorded_transitions(db);
+    let transitions = sheets(recorded.len(), transition_sheet::SHEET_TRANSITIONS)
+        .map(|(suffix, part)| (format!("transitions{suffix}.png"), transition_sheet(db, &recorded[part])));
+    single.chain(gaits).chain(bodies).chain(transitions).map(write).collect()
 }
 
 /// Paths of all files that [`write_database_plots`] may write into a folder.
@@ -63,7 +67,15 @@ pub fn database_plot_paths(db: &MotionDb, folder: &Path) -> Vec<PathBuf> {
         sheets(db.examples.len(), gait_events::SHEET_EXAMPLES).map(|(suffix, _)| format!("gait_events{suffix}"));
     let bodies =
         sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES).map(|(suffix, _)| format!("contact_sheet{suffix}"));
-    single.into_iter().chain(gaits).chain(bodies).map(|name| folder.join(format!("{name}.png"))).collect()
+    let transitions = sheets(recorded_transitions(db).len(), transition_sheet::SHEET_TRANSITIONS)
+        .map(|(suffix, _)| format!("transitions{suffix}"));
+    single
+        .into_iter()
+        .chain(gaits)
+        .chain(bodies)
+        .chain(transitions)
+        .map(|name| folder.join(format!("{name}.png")))
+        .collect()
 }
 
 /// Suffix of each sheet's name, and the indices of its examples.

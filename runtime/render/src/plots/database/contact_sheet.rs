@@ -7,28 +7,22 @@
 use std::ops::Range;
 
 use fbcrowd_sim::recording::AgentFrame;
-use glam::{Mat3, Quat, Vec2, Vec3};
-use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+use glam::Vec2;
+use motiondb::body::Pose;
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::number;
 use crate::plots::chart::figure::PlotFigure;
-use crate::plots::database::stick_figure;
+use crate::plots::database::body_views::{CELL_PX, VIEWS, draw_body, draw_sticks, scale_px_m};
 use crate::raster::drawn_body::{self, Detail, DrawnPart};
 use crate::raster::paint::fill_rect;
 use crate::raster::palette::{GRID_COARSE, INK, look};
-use crate::raster::tapered_capsule::{Canvas, TaperedCapsule};
+use crate::raster::tapered_capsule::Canvas;
 use crate::raster::text::TextAnchor;
 
 /// Number of phases drawn of each cycle.
 const PHASES: usize = 8;
-/// Width and height of a body's cell, pixels.
-const CELL_PX: Vec2 = Vec2::new(94.0, 150.0);
-/// Scale of bodies up to [`HEIGHT_MAX_M`], pixels per metre; taller ones are reduced to fit.
-const SCALE_PX_M: f32 = 66.0;
-/// Greatest height of a body at full scale, m.
-const HEIGHT_MAX_M: f32 = 1.95;
 /// Height of the ground line above a cell's lower edge, pixels.
 const GROUND_PX: f32 = 18.0;
 /// Width of the column of names, pixels.
@@ -51,27 +45,6 @@ const COLUMNS: usize = 2;
 const TITLE_PX: Vec2 = Vec2::new(GAP_PX, 66.0);
 /// Baseline of the views' names, pixels.
 const VIEW_NAMES_PX: f32 = 120.0;
-/// Width of the dark rim around a limb, pixels.
-const RIM_PX: f32 = 1.5;
-/// Displacement of bodies towards the eye, m: no part is below the paper, which would hide it.
-const DEPTH_OFFSET_M: f32 = 2.0;
-
-/// A direction of view.
-struct BodyView {
-    /// Name of the view on the sheet.
-    name: &'static str,
-    /// Axes of the view in the root frame: right, up, towards the eye.
-    axes: [Vec3; 3],
-    /// Height of the body's root above the ground line, pixels: bodies from above are centred in their cell.
-    lift_px: f32,
-}
-
-/// Views of each example, from left to right.
-const VIEWS: [BodyView; 3] = [
-    BodyView { name: "from its right side", axes: [Vec3::X, Vec3::Z, Vec3::NEG_Y], lift_px: 0.0 },
-    BodyView { name: "from the front", axes: [Vec3::Y, Vec3::Z, Vec3::X], lift_px: 0.0 },
-    BodyView { name: "from above", axes: [Vec3::X, Vec3::Y, Vec3::Z], lift_px: 56.0 },
-];
 
 /// The contact sheet of some examples of a database, given by index.
 pub fn contact_sheet(db: &MotionDb, examples: Range<usize>) -> Pixmap {
@@ -86,7 +59,7 @@ pub fn contact_sheet(db: &MotionDb, examples: Range<usize>) -> Pixmap {
     let corners: Vec<(usize, Vec2)> = examples.enumerate().map(|(n, example)| (example, corner_px(n, rows))).collect();
     for &(example, corner) in &corners {
         draw_caption(&mut figure, db, example, corner);
-        draw_sticks(&mut figure.pixmap, db, example, corner + Vec2::new(0.0, CELL_PX.y));
+        draw_example_sticks(&mut figure.pixmap, db, example, corner + Vec2::new(0.0, CELL_PX.y));
     }
     figure.pixmap = draw_bodies(figure.pixmap, db, &corners);
     figure.pixmap
@@ -148,27 +121,13 @@ fn draw_bodies(paper: Pixmap, db: &MotionDb, corners: &[(usize, Vec2)]) -> Pixma
     canvas.pixmap
 }
 
-fn draw_sticks(pixmap: &mut Pixmap, db: &MotionDb, example: usize, corner: Vec2) {
-    let scale_px_m = scale_px_m(&db.skeleton);
+fn draw_example_sticks(pixmap: &mut Pixmap, db: &MotionDb, example: usize, corner: Vec2) {
     for cell in 0..PHASES {
-        let sticks = stick_figure::sticks(&db.skeleton, &pose(db, example, cell));
+        let pose = pose(db, example, cell);
         for (index, view) in VIEWS.iter().enumerate() {
-            let at_px = corner + cell_px(index, cell);
-            let to_px = |point_m: Vec3| {
-                let in_view_m = Vec2::new(view.axes[0].dot(point_m), -view.axes[1].dot(point_m));
-                at_px + scale_px_m * in_view_m
-            };
-            sticks.iter().for_each(|stick| stick_figure::draw(pixmap, stick, to_px));
+            draw_sticks(pixmap, &db.skeleton, &pose, view, corner + cell_px(index, cell));
         }
     }
-}
-
-/// Scale at which a body of the skeleton fits into its cell.
-fn scale_px_m(skeleton: &Skeleton) -> f32 {
-    let rest = Pose { pelvis_m: skeleton.offsets_m[Joint::Pelvis.index()], rotations: [Quat::IDENTITY; JOINT_COUNT] };
-    let crown_m = skeleton.segment_ends_m[Joint::Head.index()];
-    let height_m = rest.forward_kinematics(skeleton).point_m(Joint::Head, crown_m).z;
-    SCALE_PX_M * (HEIGHT_MAX_M / height_m).min(1.0)
 }
 
 /// Pose of an example in one of its cells, in the root frame.
@@ -184,20 +143,4 @@ fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<DrawnPart> {
     let mut parts = Vec::new();
     drawn_body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
     parts
-}
-
-/// Draws a body with its root at `at_px`: parts from the farthest to the nearest.
-fn draw_body(canvas: &mut Canvas, parts: &[DrawnPart], view: &BodyView, scale_px_m: f32, at_px: Vec2) {
-    let to_view = Mat3::from_cols(view.axes[0], view.axes[1], view.axes[2]).transpose();
-    let to_px = |point: Vec3| {
-        let in_view = (to_view * point + Vec3::Z * DEPTH_OFFSET_M) * scale_px_m;
-        Vec3::new(at_px.x + in_view.x, at_px.y - in_view.y, in_view.z)
-    };
-    let mut capsules: Vec<(TaperedCapsule, Vec3)> =
-        parts.iter().map(|part| (part.to_capsule(to_px, scale_px_m), part.colour)).collect();
-    let depth = |capsule: &TaperedCapsule| capsule.ends_px[0].z + capsule.ends_px[1].z;
-    capsules.sort_by(|one, other| depth(&one.0).total_cmp(&depth(&other.0)));
-    for (capsule, colour) in &capsules {
-        canvas.paint(capsule, *colour, RIM_PX);
-    }
 }

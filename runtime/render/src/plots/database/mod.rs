@@ -3,9 +3,10 @@
 //! Enters: a valid database. Leaves: opaque pictures; [`write_database_plots`] writes all of them as PNG files.
 //!
 //! Read `all_plots`, then any other: `velocity_space`; `parameter_space` and `coverage`, which share
-//! `parameter_planes`; `contact_sheet`, which draws `stick_figure`s; `gait_events`; `pose_distances`.
+//! `parameter_planes`; `contact_sheet` and `transition_sheet`, which draw `body_views` and `stick_figure`s; `gait_events`; `pose_distances`.
 
 pub(crate) mod all_plots;
+pub(crate) mod body_views;
 pub(crate) mod contact_sheet;
 pub(crate) mod coverage;
 pub(crate) mod gait_events;
@@ -13,6 +14,7 @@ pub(crate) mod parameter_planes;
 pub(crate) mod parameter_space;
 pub(crate) mod pose_distances;
 pub(crate) mod stick_figure;
+pub(crate) mod transition_sheet;
 pub(crate) mod velocity_space;
 
 pub use all_plots::{database_plot_paths, write_database_plots};
@@ -21,4 +23,5 @@ pub use coverage::coverage_slices;
 pub use gait_events::gait_events;
 pub use parameter_space::parameter_space;
 pub use pose_distances::{pose_distances, pose_distances_between};
+pub use transition_sheet::transition_sheet;
 pub use velocity_space::velocity_space;

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use motiondb::body::Joint;
 use motiondb::files::{Invalid, SourceText};
+use motiondb::motion::ActionKind;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -38,6 +39,30 @@ pub(crate) struct ClipsTable {
     joints: BTreeMap<Spanned<String>, Spanned<String>>,
     mirror: Option<bool>,
     posture: Option<AcceptedPosture>,
+    transition: Option<Spanned<StatedTransition>>,
+}
+
+/// The transition that a clip shows.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum StatedTransition {
+    Start,
+    Stop,
+    Turn,
+    Step,
+    Pivot,
+}
+
+impl From<StatedTransition> for ActionKind {
+    fn from(stated: StatedTransition) -> Self {
+        match stated {
+            StatedTransition::Start => Self::Start,
+            StatedTransition::Stop => Self::Stop,
+            StatedTransition::Turn => Self::Turn,
+            StatedTransition::Step => Self::Step,
+            StatedTransition::Pivot => Self::Pivot,
+        }
+    }
 }
 
 /// The postures of which examples are made.
@@ -157,6 +182,10 @@ impl ClipsTable {
         if let Some(forward) = &self.forward {
             settings.forward = Some(*forward.get_ref());
             spans.insert(ManifestKey::Forward, forward.span());
+        }
+        if let Some(transition) = &self.transition {
+            settings.transition = Some((*transition.get_ref()).into());
+            spans.insert(ManifestKey::Transition, transition.span());
         }
         for (role, name) in &self.joints {
             let Some(role) = role_named(role.get_ref()) else { continue };

@@ -23,6 +23,7 @@
 //! name = "walk"                       # name of the example
 //! frames = [120, 480]                 # first and last, counted from 1
 //! mirror = false
+//! transition = "start"                # the clip shows a start, stop, turn, step or pivot, and gives no example
 //!
 //! [[clips]]
 //! path = "broken"                     # a file or folder that is not used
@@ -42,11 +43,12 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::files::{Invalid, SourceText};
+use motiondb::motion::ActionKind;
 use motiondb::velocity_sets::velocity_hull::Construction;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::error::{CompileError, RejectionReason};
+use crate::error::{CompileError, ManifestKey, RejectionReason, transition_remedy};
 use crate::input::clip_settings::ClipSettings;
 use crate::input::manifest::clips_table::ClipsTable;
 use crate::input::name_suggestions::nearest_first;
@@ -184,6 +186,21 @@ impl Manifest {
         }
         let message = format!("no stepping cycle of this name; this clip gives {}", stepping.join(", "));
         self.source.invalid(span, message, "name one of these")
+    }
+
+    /// The error at `transition` of a file that shows no transition of the stated kind.
+    pub(crate) fn no_transition(&self, file: &str, kind: ActionKind) -> CompileError {
+        let is_it = |clip: &&ClipSettings| {
+            clip.transition == Some(kind) && clip.path.file_name().is_some_and(|name| name.to_string_lossy() == file)
+        };
+        let span = self.clips.iter().find(is_it).and_then(|clip| clip.spans.values.get(&ManifestKey::Transition));
+        match span {
+            Some(span) => {
+                let message = format!("{file}: no {} was found", kind.name());
+                self.source.invalid(span.clone(), message, &transition_remedy(kind)).into()
+            }
+            None => CompileError::NoTransition { file: file.to_owned(), kind },
+        }
     }
 
     /// Checks that a clip is not rejected because of a wrong value in the manifest.

@@ -43,8 +43,8 @@ pub(crate) struct Args {
     json: bool,
     #[command(flatten)]
     outside: OutsideArg,
-    /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
-    /// similar the poses of m_sp and m_mb are.
+    /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, transitions,
+    /// and how similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// Draw a character alone: its bind pose with the joint of each role, and a stride, of the recording or of a bundled
