@@ -11,7 +11,7 @@ use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{ContactState, LookAt, Posture};
-use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep};
+use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
 /// compiler finds contacts in clips.
@@ -22,7 +22,12 @@ const SETTLING_S: f32 = 1.0;
 impl Body {
     /// A body that stands at `root`, with its cycle at `phase`, and its first output.
     pub fn standing(context: &SynthesisContext, root: Root, phase: f32) -> (Self, BodyOutput) {
-        let motion = MotionState::standing(context, phase);
+        Self::standing_with(context, root, phase, Traits::default())
+    }
+
+    /// A body with traits that stands at `root`, with its cycle at `phase`, and its first output.
+    pub fn standing_with(context: &SynthesisContext, root: Root, phase: f32, traits: Traits) -> (Self, BodyOutput) {
+        let motion = MotionState::standing(context, phase, traits);
         let posture = motion.active(context).posture(context, phase);
         let contact = ContactState::standing(&posture, &root.frame(), &context.db.skeleton);
         let (command, look_at) = (CommandState::standing(), LookAt::default());
@@ -38,6 +43,7 @@ impl Body {
         let active = motion.active(context);
         let mut posture = active_posture(motion, &active, context);
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
+        motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
         let planted = [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]);
         let contacts_ahead = contacts_ahead(&active, motion.phase, context);
