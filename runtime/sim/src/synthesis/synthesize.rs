@@ -47,11 +47,14 @@ impl Body {
         look_at.turn(&mut posture.pose, skeleton);
         let planted = [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]);
         let contacts_ahead = contacts_ahead(&active, motion.phase, context);
-        contact.lock_feet(&mut posture, planted, contacts_ahead, &frame, skeleton, step);
+        let is_new_motion = motion.has_jumped;
+        contact.lock_feet(&mut posture, planted, contacts_ahead, is_new_motion, &frame, skeleton, step);
         posture.bend_legs(skeleton);
         let soles_m = posture.soles_m(skeleton);
         contact.record_drawn(&soles_m, &frame, step);
-        output(&active, motion.phase, &posture, &soles_m, &frame, context)
+        let output = output(&active, motion.phase, &posture, &soles_m, &frame, context);
+        motion.has_jumped = false;
+        output
     }
 }
 

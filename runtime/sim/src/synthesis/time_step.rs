@@ -45,8 +45,6 @@ const FOOT_LIFT_RATE_HZ: f32 = 80.0;
 pub(crate) const LANDING_TIME_S: f32 = 0.012;
 /// Time constant of the mean speed of a foot (`foot_lock`), s: the speed jumps at each row of the database.
 const FOOT_SPEED_TIME_S: f32 = 0.03;
-/// Rate of the filter by which the pelvis rises again (`pelvis`), 1/s: of a drop, 1/8 is left after 0.25 s, a swing.
-const PELVIS_RISE_RATE_HZ: f32 = 20.0;
 
 /// The length of a step and its decay factors. "Share left" is the share of a value that is left after the step.
 #[derive(Clone, Copy, Debug)]
@@ -73,8 +71,6 @@ pub struct TimeStep {
     pub(crate) lock_release: SoftSpring,
     /// Filter of the lift of a foot.
     pub(crate) foot_lift: SoftSpring,
-    /// Filter of the rising pelvis.
-    pub(crate) pelvis_rise: SoftSpring,
     /// Shares left of the speed of a landing foot: after the step, and after half of it.
     pub(crate) landing_left: [f32; 2],
     /// Share left of the earlier mean speed of a foot.
@@ -99,7 +95,6 @@ impl TimeStep {
             inertia: spring(INERTIA_RATE_HZ),
             lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
             foot_lift: soft_spring(FOOT_LIFT_RATE_HZ),
-            pelvis_rise: soft_spring(PELVIS_RISE_RATE_HZ),
             landing_left: [LANDING_TIME_S, 2.0 * LANDING_TIME_S].map(left),
             foot_speed_left: left(FOOT_SPEED_TIME_S),
         }

@@ -37,6 +37,8 @@ pub struct MotionState {
     pub smoothed: [SmoothedMotion; 2],
     /// The idle in which the body stands.
     pub(crate) idle: IdleClock,
+    /// Whether the motion has jumped since the last pose, which inertialization carries.
+    pub(crate) has_jumped: bool,
     /// What the body does unlike others; it never changes.
     pub(crate) traits: Traits,
     /// Difference of poses that a switch has left.
@@ -57,6 +59,7 @@ impl MotionState {
             phase_catch_up: PhaseCatchUp::default(),
             smoothed: [SmoothedMotion::standing(mix); 2],
             idle: IdleClock::drawn(&context.db, phase),
+            has_jumped: false,
             traits,
             inertialization: Inertialization::default(),
         }

@@ -110,6 +110,7 @@ impl MotionState {
     pub(crate) fn jump(&mut self, context: &SynthesisContext, step: &TimeStep, change: impl FnOnce(&mut Self)) {
         let old = self.poses(context, step);
         change(self);
+        self.has_jumped = true;
         let new = self.poses(context, step);
         self.inertialization.begin(old.each_ref(), new.each_ref(), step.look_back_s);
     }

@@ -16,7 +16,7 @@ use crate::synthesis::pose::posture::Posture;
 pub(crate) struct ContactState {
     /// Lock of each foot, `[left, right]`.
     pub locks: [FootLock; 2],
-    /// Drop of the pelvis for locked feet.
+    /// Drop of the pelvis.
     pelvis_drop: PelvisDrop,
 }
 
@@ -29,12 +29,14 @@ impl ContactState {
     }
 
     /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require. `contacts_ahead`
-    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
+    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later; `is_new_motion`
+    /// is true in the first step after a switch.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
         planted: [bool; 2],
         contacts_ahead: [f32; 2],
+        is_new_motion: bool,
         frame: &RootFrame,
         skeleton: &Skeleton,
         step: &TimeStep,
@@ -46,7 +48,7 @@ impl ContactState {
             let locked = self.locks[side].step(&posed, planted[side], contacts_ahead[side], step);
             FootPose { ankle_m: frame.to_local(locked.ankle_m), orientation: locked.twist * foot.orientation }
         });
-        posture.lock_feet(locked, |required_m| self.pelvis_drop.follow(required_m, step));
+        posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, is_new_motion, step));
     }
 
     /// Records the soles as the legs could draw them.
