@@ -24,6 +24,8 @@ const SMOOTHING_TIME_S: f32 = 0.05;
 /// Time constant with which the usual lag of the feet is learnt (`phase_catch_up`), s: an adult's stride at 100 steps a
 /// minute.
 const USUAL_LAG_TIME_S: f32 = 1.2;
+/// Time constant with which the pace of a slow step changes (`step_timing`), s: legs do not jerk.
+const PACE_TIME_S: f32 = 0.03;
 /// Rate of the spring that turns the direction of travel about (`pose_smoothing`), 1/s: the legs reverse in one step.
 const TRAVEL_RATE_HZ: f32 = 10.0;
 /// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
@@ -61,6 +63,8 @@ pub struct TimeStep {
     pub(crate) smoothing_left: f32,
     /// Share left of the usual lag of the feet.
     pub(crate) usual_lag_left: f32,
+    /// Share left of the earlier pace of steps.
+    pub(crate) pace_left: f32,
     /// Spring of the direction of travel.
     pub(crate) travel: Spring,
     /// Spring of the look-at angle.
@@ -90,6 +94,7 @@ impl TimeStep {
             command_rate_left: left(COMMAND_RATE_TIME_S),
             smoothing_left: left(SMOOTHING_TIME_S),
             usual_lag_left: left(USUAL_LAG_TIME_S),
+            pace_left: left(PACE_TIME_S),
             travel: spring(TRAVEL_RATE_HZ),
             look_at: spring(LOOK_AT_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),

@@ -115,6 +115,12 @@ impl ExampleMix {
         Parameters::from_vec3(self.playback_rate * terms.fold(Vec3::ZERO, |sum, term| sum + term))
     }
 
+    /// Mean phase rate over a cycle, times the playback rate, 1/s.
+    pub(crate) fn strides_hz(&self, db: &MotionDb) -> f32 {
+        let strides_hz = |example: u32| 1.0 / db.examples[example as usize].phase_map.period_s;
+        self.playback_rate * self.entries().iter().map(|&(example, share)| share * strides_hz(example)).sum::<f32>()
+    }
+
     /// φ' = Σ u_i·r_i(φ), times the playback rate, 1/s.
     pub fn phase_rate_hz(&self, db: &MotionDb, phase: f32) -> f32 {
         let sine = PhaseMap::sine(phase);

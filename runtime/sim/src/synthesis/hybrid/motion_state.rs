@@ -2,8 +2,10 @@
 //!
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
+use motiondb::body::Root;
 use motiondb::motion::{MotionDb, Parameters};
 
+use crate::maths::arc::moved_root;
 use crate::synthesis::blending::example_mix::advanced_phase;
 use crate::synthesis::blending::{ExampleMix, Reachable};
 use crate::synthesis::command::acceleration_limit::limited_by_axis;
@@ -14,6 +16,7 @@ use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::inertialization::Inertialization;
 use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
+use crate::synthesis::hybrid::step_timing::StepTiming;
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
@@ -35,6 +38,8 @@ pub struct MotionState {
     pub(crate) phase_catch_up: PhaseCatchUp,
     /// What is drawn of the motion: after this step, and after the last.
     pub smoothed: [SmoothedMotion; 2],
+    /// Pace of the steps, and the body's lead over its root.
+    pub(crate) timing: StepTiming,
     /// The idle in which the body stands.
     pub(crate) idle: IdleClock,
     /// Whether the motion has jumped since the last pose, which inertialization carries.
@@ -58,6 +63,7 @@ impl MotionState {
             phase,
             phase_catch_up: PhaseCatchUp::default(),
             smoothed: [SmoothedMotion::standing(mix); 2],
+            timing: StepTiming::default(),
             idle: IdleClock::drawn(&context.db, phase),
             has_jumped: false,
             traits,
@@ -148,11 +154,33 @@ impl MotionState {
         }
     }
 
+    /// Lets the pace of the steps follow the motion over one step.
+    pub(crate) fn time_steps(&mut self, context: &SynthesisContext, step: &TimeStep) {
+        let mean_hz = match self.deformed(context) {
+            Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
+            None => self.mix.strides_hz(&context.db),
+        };
+        self.timing.follow(self.phase, mean_hz, self.traits.cadence * context.base_hz, step);
+    }
+
+    /// The root under the body as it is drawn, for a body at `root`: ahead of it or behind by the lead.
+    pub(crate) fn drawn_root(&self, root: &Root, db: &MotionDb) -> Root {
+        let parameters = match self.mode {
+            Mode::Blending => self.smoothed[0].mix.parameters(db),
+            Mode::SemiProcedural => self.smoothed[0].parameters,
+        };
+        if self.timing.lead_s == 0.0 { *root } else { moved_root(root, &parameters, self.timing.lead_s) }
+    }
+
+    fn tempo<'a>(&self, base_walk: &'a BaseWalk, parameters: Parameters) -> Tempo<'a> {
+        Tempo::new(base_walk, parameters, self.smoothed[0].travel, self.traits.cadence)
+    }
+
     /// Advances the phase by a duration of the motion's own time, s.
     pub(crate) fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
         self.phase = match self.deformed(context) {
             Some((base_walk, parameters)) => {
-                let map = Tempo::new(base_walk, parameters, self.smoothed[0].travel, self.traits.cadence).phase_map();
+                let map = self.tempo(base_walk, parameters).phase_map();
                 advanced_phase(self.phase, duration_s, |phase| map.rate_hz(phase))
             }
             None => self.mix.advanced_phase(&context.db, self.phase, duration_s),

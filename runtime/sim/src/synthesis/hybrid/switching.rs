@@ -118,7 +118,8 @@ impl MotionState {
     /// The drawn poses, now and [`TimeStep::look_back_s`] before.
     fn poses(&self, context: &SynthesisContext, step: &TimeStep) -> [Pose; 2] {
         let active = self.active(context);
-        let earlier_phase = wrapped(self.phase - step.look_back_s * active.phase_rate_hz(self.phase));
+        let earlier_phase =
+            wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(self.phase));
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
         let mut earlier_idle = self.idle;

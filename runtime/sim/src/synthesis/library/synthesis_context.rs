@@ -35,6 +35,8 @@ pub struct SynthesisContext {
     pub hybrid: Option<HybridData>,
     /// Mean rotation of each joint in the base walk, or in the first example where none walks.
     pub mean_rotations: [Quat; JOINT_COUNT],
+    /// Strides per second of the base walk.
+    pub base_hz: f32,
     /// Tunables.
     pub params: HmsParams,
 }
@@ -43,8 +45,9 @@ impl SynthesisContext {
     /// Prepares a database for the syntheses that the tunables name.
     pub fn new(db: Arc<MotionDb>, params: HmsParams) -> Self {
         let db = augmented(db);
-        let mean_rotations = db.rows.mean_pose(walk(&db).unwrap_or(0)).rotations;
+        let base = walk(&db).unwrap_or(0);
+        let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
-        Self { domain, hybrid, mean_rotations, db, params }
+        Self { domain, hybrid, mean_rotations, base_hz, db, params }
     }
 }
