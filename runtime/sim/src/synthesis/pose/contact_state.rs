@@ -2,12 +2,13 @@
 //!
 //! Postures and soles are in the root frame (x forward, y left, z up), the locks in the world; metres.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use motiondb::body::{RootFrame, Skeleton};
 
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot};
 use crate::synthesis::pose::leg::FootPose;
+use crate::synthesis::pose::leg_clearance::away_m;
 use crate::synthesis::pose::pelvis::PelvisDrop;
 use crate::synthesis::pose::posture::Posture;
 
@@ -42,12 +43,19 @@ impl ContactState {
         step: &TimeStep,
     ) {
         let soles_m = posture.soles_m(skeleton);
-        let locked = [0, 1].map(|side| {
-            let foot = &posture.feet[side];
+        // The stance foot first: the other one avoids it.
+        let first = usize::from(!self.locks[0].planted());
+        let mut locked = posture.feet;
+        for side in [first, 1 - first] {
+            let (foot, other) = (&posture.feet[side], &posture.feet[1 - side]);
             let posed = posed_foot(frame, foot, soles_m[side]);
-            let locked = self.locks[side].step(&posed, planted[side], contacts_ahead[side], step);
-            FootPose { ankle_m: frame.to_local(locked.ankle_m), orientation: locked.twist * foot.orientation }
-        });
+            let passes = side != first && self.locks[first].planted();
+            let away_m = || away_m(side, foot.ankle_m, other.ankle_m, locked[first].ankle_m);
+            let away_m = if passes { frame.forward.rotate(away_m()) } else { Vec2::ZERO };
+            let lock = self.locks[side].step(&posed, planted[side], contacts_ahead[side], away_m, step);
+            locked[side] =
+                FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
+        }
         posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, is_new_motion, step));
     }
 
