@@ -50,7 +50,7 @@ fn keys_of_reader(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn schema_and_reader_know_the_same_keys() {
-    const TABLES: [(&str, &str); 45] = [
+    const TABLES: [(&str, &str); 46] = [
         ("zzz = 1", "/properties"),
         ("[[agents]]\nzzz = 1", "/$defs/agents/properties"),
         ("[[agents]]\ncircle = { zzz = 1 }", "/$defs/agents/properties/circle/properties"),
@@ -97,6 +97,7 @@ fn schema_and_reader_know_the_same_keys() {
         ("[camera]\nfollow = { zzz = 1 }", "/$defs/camera/properties/follow/properties"),
         ("[view]\nzzz = 1", "/properties/view/properties"),
         ("[shot]\nzzz = 1", "/properties/shot/properties"),
+        ("[variation]\nzzz = 1", "/$defs/variation/properties"),
         ("[params]\nzzz = 1", "/properties/params/properties"),
         ("[params.route]\nzzz = 1", "/properties/params/properties/route/properties"),
         ("[params.planner]\nzzz = 1", "/properties/params/properties/planner/properties"),
@@ -127,6 +128,8 @@ fn the_schema_refuses_what_the_reader_refuses() {
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], from_s = 1, schedule = [[0, 1]] }]",
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], schedule_file = \"a.csv\", schedule = [[0, 1]] }]",
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], schedule = [[0, 1], [1, 2, 3]] }]",
+        "duration_s = 1\nvariation = 1\nagents = { at_m = [0, 0], goals_m = [[1, 0]] }",
+        "duration_s = 1\nvariation = { cadence = 0.5 }\nagents = { at_m = [0, 0], goals_m = [[1, 0]] }",
         "duration_s = 1\nagents = { at_m = [0, 0], state = \"s\" }\nstates = { s = { stand = {}, remove = true } }",
     ];
     for text in wrong {

@@ -16,9 +16,9 @@ use crate::population::AgentId;
 use crate::recording::frame::AgentFrame;
 use crate::route::crowd_routes::RouteMemory;
 use crate::route::path::PathProgress;
-use crate::scenario::AgentSpec;
 use crate::scenario::coupling::Coupling;
-use crate::synthesis::{Body, SynthesisContext};
+use crate::scenario::{AgentSpec, Scenario};
+use crate::synthesis::{Body, BodyOutput, SynthesisContext, Traits};
 
 /// First random stream of the starting phases; the scenario uses those below.
 const START_PHASE_STREAM: u64 = 1 << 32;
@@ -111,12 +111,9 @@ impl Agents {
 
     /// Appends an agent that stands at its start, with its cycle at a phase of its own, so that a crowd does not march
     /// in step. Its id must be greater than all others.
-    pub fn push(&mut self, id: AgentId, spec: &AgentSpec, seed: u64, coupling: Coupling, context: &SynthesisContext) {
+    pub fn push(&mut self, id: AgentId, spec: &AgentSpec, scenario: &Scenario, context: &SynthesisContext) {
         let root = Root { position_m: spec.position_m, facing_rad: spec.facing_rad };
-        let (body, mut output) = Body::standing(context, root, start_phase(seed, id));
-        if coupling == Coupling::Discs {
-            output.contacts = [0.0; 2];
-        }
+        let (body, output) = standing(id, root, scenario, context);
         let mut frame = AgentFrame { id, ..AgentFrame::default() };
         frame.show(&output);
         self.ids.push(id);
@@ -141,19 +138,9 @@ impl Agents {
     }
 
     /// Lets an agent stand at another position, with a body that has not moved yet.
-    pub(crate) fn stand_at(
-        &mut self,
-        index: usize,
-        position_m: Vec2,
-        seed: u64,
-        coupling: Coupling,
-        context: &SynthesisContext,
-    ) {
+    pub(crate) fn stand_at(&mut self, index: usize, position_m: Vec2, scenario: &Scenario, context: &SynthesisContext) {
         let root = Root { position_m, facing_rad: self.facings_rad[index] };
-        let (body, mut output) = Body::standing(context, root, start_phase(seed, self.ids[index]));
-        if coupling == Coupling::Discs {
-            output.contacts = [0.0; 2];
-        }
+        let (body, output) = standing(self.ids[index], root, scenario, context);
         self.frames[index].show(&output);
         self.are_between_steps[index] = true;
         self.positions_m[index] = position_m;
@@ -183,6 +170,19 @@ impl Agents {
 fn retain_marked<T>(values: &mut Vec<T>, keeps: &[bool]) {
     let mut keeps = keeps.iter();
     values.retain(|_| keeps.next().copied().unwrap_or(true));
+}
+
+/// The body of an agent that stands at a root, with the agent's phase and traits, and its first output.
+fn standing(id: AgentId, root: Root, scenario: &Scenario, context: &SynthesisContext) -> (Body, BodyOutput) {
+    let Scenario { seed, coupling, variation, .. } = *scenario;
+    // Bodies of the baseline follow their discs as in the clips.
+    let variation = variation.filter(|_| coupling == Coupling::TwoWay);
+    let traits = variation.map_or_else(Traits::default, |variation| variation.traits(seed, id.0));
+    let (body, mut output) = Body::standing_with(context, root, start_phase(seed, id), traits);
+    if coupling == Coupling::Discs {
+        output.contacts = [0.0; 2];
+    }
+    (body, output)
 }
 
 /// A phase in [0, 1) from 24 random bits, the mantissa of an f32.

@@ -99,6 +99,7 @@ pub mod route;
 pub mod scenario;
 pub mod simulation;
 pub mod synthesis;
+pub mod variation;
 pub mod world;
 
 #[cfg(test)]

@@ -35,6 +35,8 @@ pub struct AgentLife {
     pub spec: AgentSpec,
     /// Index of the source that the agent came from; none of an agent of the scenario's start, or added by a program.
     pub source: Option<u32>,
+    /// Time for which the agent goes on standing after its `pre_movement_s`, s: its reaction to a common start.
+    pub reaction_s: f32,
     /// The first frame with the agent.
     pub born: u32,
     /// The first frame without it; none of an agent that is present to the end.
@@ -69,6 +71,7 @@ impl AgentLife {
             group: spec.group.map(|group| group.first),
             spec,
             source,
+            reaction_s: 0.0,
             born,
             removed: None,
             database: 0,
@@ -81,7 +84,7 @@ impl AgentLife {
 
     /// The first frame after which the agent does not stand but begins, where steps last `dt_s`.
     pub fn begins_at(&self, dt_s: f32) -> u32 {
-        self.born + (self.spec.pre_movement_s / dt_s).ceil() as u32
+        self.born + ((self.spec.pre_movement_s + self.reaction_s) / dt_s).ceil() as u32
     }
 
     /// Radius of the disc that other agents see in a frame, m.
@@ -104,6 +107,14 @@ impl AgentLife {
     pub fn is_present(&self, frame: u32) -> bool {
         self.born <= frame && self.removed.is_none_or(|removed| frame < removed)
     }
+}
+
+/// Reaction time of an agent, by id, s: none of an agent that comes after the start. The members of a group react as its
+/// first one, so they begin to walk together.
+pub(crate) fn reaction_s(scenario: &Scenario, index: usize) -> f32 {
+    let (Some(spec), Some(variation)) = (scenario.agents.get(index), scenario.variation) else { return 0.0 };
+    let first = spec.group.map_or(index as u32, |group| group.first);
+    variation.drawn_reaction_s(scenario.seed, first)
 }
 
 /// What a source did.
@@ -188,7 +199,7 @@ impl Population {
     pub fn of(scenario: &Scenario) -> Self {
         let life = |(index, spec): (usize, &AgentSpec)| {
             let character = scenario.character_of(index as u32, spec);
-            AgentLife { character, ..AgentLife::new(spec.clone(), None, 0) }
+            AgentLife { character, reaction_s: reaction_s(scenario, index), ..AgentLife::new(spec.clone(), None, 0) }
         };
         let door = |is_closed_at_start| DoorPhases { is_closed_at_start, changes: Vec::new() };
         Self {

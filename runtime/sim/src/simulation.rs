@@ -122,7 +122,7 @@ impl Simulation {
         let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
         for (index, spec) in scenario.agents.iter().enumerate() {
             Self::add_behaviour(&mut crowd, scenario, spec);
-            agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
+            agents.push(index.into(), spec, scenario, &context);
         }
         let (routes, route_error) = match DoorRoutes::new(scenario) {
             Ok(routes) => (routes, None),

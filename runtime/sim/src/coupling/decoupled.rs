@@ -36,5 +36,5 @@ pub(crate) fn follow(body: &mut Body, context: &SynthesisContext, from: Root, dt
     let active = motion.active(context);
     let posture = active.posture(context, motion.phase);
     let soles_m = posture.soles_m(&context.db.skeleton);
-    output(&active, motion.phase, &posture, &soles_m, &body.root.frame(), context)
+    output(&active, [motion.phase, 1.0], &posture, &soles_m, &body.root.frame(), context)
 }

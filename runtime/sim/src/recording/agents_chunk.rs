@@ -9,7 +9,9 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::population::{AgentLife, DoorPhases, GoalCount, Population, RadiusChange, SignalChange, SourceCount};
+use crate::population::{
+    AgentLife, DoorPhases, GoalCount, Population, RadiusChange, SignalChange, SourceCount, reaction_s,
+};
 use crate::recording::header::Header;
 use crate::scenario::AgentSpec;
 use crate::scenario::ranges::{AGENTS_MAX, RADIUS_M, check_agent};
@@ -134,7 +136,20 @@ fn population(stored: StoredPopulation<'_>, header: &Header) -> Result<Populatio
         };
         let StoredLife { source, born, removed, database, character, stature, group, radii_m, teleports, .. } = stored;
         let (radii_m, teleports) = (radii_m.into_owned(), teleports.into_owned());
-        Ok(AgentLife { spec, source, born, removed, database, character, stature, group, radii_m, teleports })
+        let reaction_s = reaction_s(&header.scenario, id);
+        Ok(AgentLife {
+            spec,
+            source,
+            reaction_s,
+            born,
+            removed,
+            database,
+            character,
+            stature,
+            group,
+            radii_m,
+            teleports,
+        })
     };
     let agents = stored.agents.into_iter().enumerate().map(life).collect::<Result<_, String>>()?;
     let mut goals = stored.goals.into_owned();

@@ -27,6 +27,8 @@ pub enum ScenarioPart {
     View,
     /// `[shot]`
     Shot,
+    /// `[variation]`
+    Variation,
     /// A tunable: section and key.
     Parameter(String, String),
     /// Start or goals of an agent, by its index.

@@ -19,6 +19,7 @@ use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
 use crate::synthesis::Modes;
+use crate::variation::Variation;
 
 /// Default time step, s: a film's.
 const STEP_S: f32 = 1.0 / 30.0;
@@ -105,6 +106,9 @@ pub struct Scenario {
     /// Which moments become frames; none where the file states none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shot: Option<ShotSpec>,
+    /// How much bodies differ; none: all move as in the clips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variation: Option<Variation>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -117,7 +121,7 @@ impl Scenario {
         (self.duration_s / self.dt_s).round() as usize
     }
 
-    /// Agents on open ground, with everything else at its default.
+    /// Agents on open ground whose bodies all move as in the clips, with everything else at its default.
     ///
     /// ```
     /// use fbcrowd_sim::scenario::{AgentSpec, Scenario};
@@ -158,6 +162,7 @@ impl Scenario {
             characters: Vec::new(),
             cameras: Vec::new(),
             shot: None,
+            variation: None,
             params: Params::default(),
             view: View::default(),
         }

@@ -113,7 +113,7 @@ impl Simulation {
         let Self { agents, population, crowd, scenario, context, steps, .. } = self;
         for &(id, position_m) in &crowd.teleports {
             let Ok(index) = agents.ids.binary_search(&id) else { continue };
-            agents.stand_at(index, position_m, scenario.seed, scenario.coupling, context);
+            agents.stand_at(index, position_m, scenario, context);
             population.agents[id.index()].teleports.push(*steps);
         }
     }

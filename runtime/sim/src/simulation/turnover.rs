@@ -159,7 +159,7 @@ impl Simulation {
         self.has_groups |= spec.group.is_some();
         self.has_priorities |= spec.priority != 0.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
-        self.agents.push(id, &spec, self.scenario.seed, self.scenario.coupling, &self.context);
+        self.agents.push(id, &spec, &self.scenario, &self.context);
         let character = self.scenario.character_of(id.0, &spec);
         self.population.agents.push(AgentLife { character, ..AgentLife::new(spec, source, self.steps) });
         self.record_agent(self.agents.count() - 1);

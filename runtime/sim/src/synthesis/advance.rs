@@ -20,10 +20,11 @@ impl Body {
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
         let Self { root, actual_mps, command, motion, contact, look_at } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
-        let reachable = command.follow(&plan, root.facing_rad, motion.deformed(context), context, step);
+        let (traits, deformed) = (motion.traits, motion.deformed(context));
+        let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
         let feet_gathered = || feet_gathered(contact, root, &context.domain);
         if motion.mode == Mode::Blending && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
-            let phase = first_step_phase(command.filter.command, contact, root, &context.domain);
+            let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             motion.jump(context, step, |motion| motion.phase = phase);
         }
         let target = motion.target(command, &reachable, context);
@@ -32,7 +33,8 @@ impl Body {
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
-        motion.advance_phase(step.dt_s * rate_factor, context);
+        motion.time_steps(context, step);
+        motion.advance_phase(step.dt_s * rate_factor * motion.timing.pace, context);
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);

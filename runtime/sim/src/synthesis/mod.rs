@@ -16,7 +16,7 @@
 //! `synthesize` makes the pose:
 //!
 //! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
-//! 9. `look_at`: head and chest turn;
+//! 9. `traits`, `look_at`: the upper body moves as this agent does; head and chest turn;
 //! 10. `foot_lock`, `pelvis`: planted feet are locked, and the pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
 //!
@@ -34,7 +34,7 @@
 //!
 //! # Chapters
 //!
-//! Each chapter depends only on those before it: `mode`, `params` and `time_step` (constants and options only),
+//! Each chapter depends only on those before it: `mode`, `params`, `time_step` (constants and options only), `traits`,
 //! [`pose`], [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, then `advance`,
 //! `synthesize` and `walk_alone`.
 //!
@@ -61,6 +61,7 @@ pub(crate) mod synthesize;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod time_step;
+pub(crate) mod traits;
 pub(crate) mod walk_alone;
 
 pub use body::{Body, BodyOutput};
@@ -68,3 +69,4 @@ pub use library::SynthesisContext;
 pub use mode::{Mode, Modes};
 pub use params::{HmsParams, Transition};
 pub use time_step::{INERTIA_DURATION_S, TimeStep};
+pub use traits::Traits;

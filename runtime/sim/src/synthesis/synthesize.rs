@@ -6,12 +6,13 @@ use glam::Vec3;
 use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
 
+use crate::maths::angle::{angle_between_rad, yaw};
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{ContactState, LookAt, Posture};
-use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep};
+use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
 /// compiler finds contacts in clips.
@@ -22,7 +23,12 @@ const SETTLING_S: f32 = 1.0;
 impl Body {
     /// A body that stands at `root`, with its cycle at `phase`, and its first output.
     pub fn standing(context: &SynthesisContext, root: Root, phase: f32) -> (Self, BodyOutput) {
-        let motion = MotionState::standing(context, phase);
+        Self::standing_with(context, root, phase, Traits::default())
+    }
+
+    /// A body with traits that stands at `root`, with its cycle at `phase`, and its first output.
+    pub fn standing_with(context: &SynthesisContext, root: Root, phase: f32, traits: Traits) -> (Self, BodyOutput) {
+        let motion = MotionState::standing(context, phase, traits);
         let posture = motion.active(context).posture(context, phase);
         let contact = ContactState::standing(&posture, &root.frame(), &context.db.skeleton);
         let (command, look_at) = (CommandState::standing(), LookAt::default());
@@ -34,18 +40,23 @@ impl Body {
     /// Poses the body at its present phase and root.
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
         let Self { root, motion, contact, look_at, .. } = self;
-        let (skeleton, frame) = (&context.db.skeleton, root.frame());
+        // All is done in the frame of the root under the drawn body.
+        let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root, &context.db).frame());
         let active = motion.active(context);
         let mut posture = active_posture(motion, &active, context);
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
+        motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
         let planted = [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]);
-        let contacts_ahead = contacts_ahead(&active, motion.phase, context);
-        contact.lock_feet(&mut posture, planted, contacts_ahead, &frame, skeleton, step);
+        let contacts_ahead = contacts_ahead(&active, motion, context);
+        let is_new_motion = motion.has_jumped;
+        contact.lock_feet(&mut posture, planted, contacts_ahead, is_new_motion, &frame, skeleton, step);
         posture.bend_legs(skeleton);
         let soles_m = posture.soles_m(skeleton);
         contact.record_drawn(&soles_m, &frame, step);
-        output(&active, motion.phase, &posture, &soles_m, &frame, context)
+        motion.has_jumped = false;
+        let (posture, soles_m) = in_root_frame(posture, soles_m, &frame, &root.frame());
+        output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context)
     }
 }
 
@@ -77,20 +88,38 @@ fn is_held_up(before_m: &[Vec3; 3], after_m: &[Vec3; 3]) -> bool {
 }
 
 /// Contact of each foot [`LANDING_AHEAD_S`] later.
-fn contacts_ahead(active: &ActiveMotion, phase: f32, context: &SynthesisContext) -> [f32; 2] {
-    active.contacts(context, wrapped(phase + LANDING_AHEAD_S * active.phase_rate_hz(phase)))
+fn contacts_ahead(active: &ActiveMotion, motion: &MotionState, context: &SynthesisContext) -> [f32; 2] {
+    let phase_rate_hz = motion.timing.pace * active.phase_rate_hz(motion.phase);
+    active.contacts(context, wrapped(motion.phase + LANDING_AHEAD_S * phase_rate_hz))
 }
 
-/// The output for a posture and its soles in the root frame.
+/// A pose and its soles, made in the frame of the drawn body, in the root frame.
+fn in_root_frame(
+    mut posture: Posture,
+    soles_m: [[Vec3; 3]; 2],
+    drawn: &RootFrame,
+    root: &RootFrame,
+) -> (Posture, [[Vec3; 3]; 2]) {
+    if drawn == root {
+        return (posture, soles_m);
+    }
+    let moved = |point_m: Vec3| root.to_local(drawn.to_world(point_m));
+    posture.pose.pelvis_m = moved(posture.pose.pelvis_m);
+    let turned_rad = angle_between_rad(root.forward, drawn.forward);
+    posture.pose.rotations[0] = yaw(turned_rad) * posture.pose.rotations[0];
+    (posture, soles_m.map(|sole_m| sole_m.map(moved)))
+}
+
+/// The output for a posture and its soles in the root frame, at a phase and a pace.
 pub(crate) fn output(
     active: &ActiveMotion,
-    phase: f32,
+    [phase, pace]: [f32; 2],
     posture: &Posture,
     soles_m: &[[Vec3; 3]; 2],
     frame: &RootFrame,
     context: &SynthesisContext,
 ) -> BodyOutput {
-    let time_to_landing_s = |swing| active.time_to_landing_s(context, phase, swing);
+    let time_to_landing_s = |swing| active.time_to_landing_s(context, phase, swing) / pace;
     BodyOutput {
         pose: posture.pose,
         contacts: posture.contacts,

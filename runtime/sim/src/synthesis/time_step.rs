@@ -24,6 +24,8 @@ const SMOOTHING_TIME_S: f32 = 0.05;
 /// Time constant with which the usual lag of the feet is learnt (`phase_catch_up`), s: an adult's stride at 100 steps a
 /// minute.
 const USUAL_LAG_TIME_S: f32 = 1.2;
+/// Time constant with which the pace of a slow step changes (`step_timing`), s: legs do not jerk.
+const PACE_TIME_S: f32 = 0.03;
 /// Rate of the spring that turns the direction of travel about (`pose_smoothing`), 1/s: the legs reverse in one step.
 const TRAVEL_RATE_HZ: f32 = 10.0;
 /// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
@@ -45,8 +47,6 @@ const FOOT_LIFT_RATE_HZ: f32 = 80.0;
 pub(crate) const LANDING_TIME_S: f32 = 0.012;
 /// Time constant of the mean speed of a foot (`foot_lock`), s: the speed jumps at each row of the database.
 const FOOT_SPEED_TIME_S: f32 = 0.03;
-/// Rate of the filter by which the pelvis rises again (`pelvis`), 1/s: of a drop, 1/8 is left after 0.25 s, a swing.
-const PELVIS_RISE_RATE_HZ: f32 = 20.0;
 
 /// The length of a step and its decay factors. "Share left" is the share of a value that is left after the step.
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +63,8 @@ pub struct TimeStep {
     pub(crate) smoothing_left: f32,
     /// Share left of the usual lag of the feet.
     pub(crate) usual_lag_left: f32,
+    /// Share left of the earlier pace of steps.
+    pub(crate) pace_left: f32,
     /// Spring of the direction of travel.
     pub(crate) travel: Spring,
     /// Spring of the look-at angle.
@@ -73,8 +75,6 @@ pub struct TimeStep {
     pub(crate) lock_release: SoftSpring,
     /// Filter of the lift of a foot.
     pub(crate) foot_lift: SoftSpring,
-    /// Filter of the rising pelvis.
-    pub(crate) pelvis_rise: SoftSpring,
     /// Shares left of the speed of a landing foot: after the step, and after half of it.
     pub(crate) landing_left: [f32; 2],
     /// Share left of the earlier mean speed of a foot.
@@ -94,12 +94,12 @@ impl TimeStep {
             command_rate_left: left(COMMAND_RATE_TIME_S),
             smoothing_left: left(SMOOTHING_TIME_S),
             usual_lag_left: left(USUAL_LAG_TIME_S),
+            pace_left: left(PACE_TIME_S),
             travel: spring(TRAVEL_RATE_HZ),
             look_at: spring(LOOK_AT_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),
             lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
             foot_lift: soft_spring(FOOT_LIFT_RATE_HZ),
-            pelvis_rise: soft_spring(PELVIS_RISE_RATE_HZ),
             landing_left: [LANDING_TIME_S, 2.0 * LANDING_TIME_S].map(left),
             foot_speed_left: left(FOOT_SPEED_TIME_S),
         }

@@ -2,7 +2,8 @@
 //!
 //! - Crowds: the antipodal circle, two crossing streams, a door of 1.2 m, and two scenes of Table 1.
 //! - Starts: the crossing with other seeds, up to 8 s.
-//! - Lanes: thirty agents, each alone in its lane, start at one time, walk 12 m, stop and stand.
+//! - Lanes: thirty agents, each alone in its lane, start at one time, walk 12 m, stop and stand; their starts also with
+//!   other seeds.
 //! - Turns: single bodies that turn in place at 170 °/s.
 //! - Gaps: an agent passes between two walls, or between two agents that stand.
 //!
@@ -75,6 +76,8 @@ pub(crate) struct PeopleRuns {
     pub(crate) pooled: PeopleMeasures,
     /// The starts, a run for each seed.
     pub(crate) starts: Vec<PeopleMeasures>,
+    /// The starts in lanes, a run for each seed.
+    pub(crate) lane_starts: Vec<PeopleMeasures>,
     /// The lanes.
     pub(crate) lanes: PeopleMeasures,
     /// The turns in place.
@@ -96,12 +99,15 @@ pub(crate) fn run(
     let starts = starts.collect::<Result<Vec<Scenario>, BenchError>>()?;
     let breadth_m = shoulder_breadth_m(&db.skeleton);
     let gaps = [wall_gap, agent_gap].into_iter().flat_map(|gap| GAPS.map(|width| gap(breadth_m, width * breadth_m)));
-    let scenarios: Vec<Scenario> = crowds.into_iter().chain(starts).chain([lanes()]).chain(gaps).collect();
+    let lane_starts = START_SEEDS.map(|seed| Scenario { seed, duration_s: START_S, ..lanes() });
+    let scenarios: Vec<Scenario> =
+        crowds.into_iter().chain(starts).chain(lane_starts).chain([lanes()]).chain(gaps).collect();
     let scenarios: Vec<Scenario> = scenarios.into_iter().map(|scenario| prepared(scenario, prepare)).collect();
     let mut runs = run_each_on_one_thread(scenarios.len(), observer, |index| simulate(db, &scenarios[index]))?;
     let gaps = runs.split_off(runs.len() - 2 * GAPS.len());
     let Some(lanes) = runs.pop() else { return Ok(PeopleRuns::empty()) };
-    let starts = runs.split_off(crowd_count).into_iter().map(|run| run.people).collect();
+    let mut starts: Vec<PeopleMeasures> = runs.split_off(crowd_count).into_iter().map(|run| run.people).collect();
+    let lane_starts = starts.split_off(starts.len() / 2);
     let mut pooled = PeopleTally::default();
     runs.iter().flat_map(|run| &run.tracks).for_each(|track| pooled.add(track));
     let turn_deg = |kind: usize| {
@@ -115,6 +121,7 @@ pub(crate) fn run(
         pooled: pooled.finish(SoleSlide::default()),
         crowds: runs,
         starts,
+        lane_starts,
         lanes: lanes.people,
         turns: turns(db),
         shoulders_deg: [0, 1].map(turn_deg),
@@ -127,6 +134,7 @@ impl PeopleRuns {
             crowds: Vec::new(),
             pooled: PeopleMeasures::default(),
             starts: Vec::new(),
+            lane_starts: Vec::new(),
             lanes: PeopleMeasures::default(),
             turns: PeopleMeasures::default(),
             shoulders_deg: [[None; 2]; 2],

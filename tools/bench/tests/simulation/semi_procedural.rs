@@ -176,7 +176,7 @@ fn a_gait_reversed_beyond_its_end_keeps_its_contacts() {
     let db = bundled();
     let semi = semi_procedural(&db);
     let back = parameters([-0.3, 0.0, 0.0]);
-    let contacts = |travel| Deformation::travelling(&semi, back, travel).contacts(&db, 0.3);
+    let contacts = |travel| Deformation::travelling(&semi, back, travel, 1.0).contacts(&db, 0.3);
     assert_eq!(contacts(Vec2::new(-1.4, 0.0)), contacts(Vec2::NEG_X));
 }
 

@@ -225,6 +225,8 @@ fn a_side_step_without_a_clip_moves_no_body() {
     let context = SynthesisContext {
         domain: BlendDomain::new(&db),
         hybrid: None,
+        mean_rotations: db.rows.mean_pose(0).rotations,
+        base_hz: 0.9,
         params: HmsParams::default(),
         db: Arc::new(db),
     };

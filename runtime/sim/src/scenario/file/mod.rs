@@ -8,7 +8,8 @@
 //! (tables and lines of agents), `agent_area` (agents spread over an area), `profile_tables` (numbers that are drawn),
 //! `agent_placement` (from them to agents), `group_keys` (agents that walk together), `sources` (agents that come
 //! later), `ground_tables` and `marking_tables`
-//! (walls, what is painted on the ground), `measure_tables` and `zone_tables` (lines and areas).
+//! (walls, what is painted on the ground), `measure_tables` and `zone_tables` (lines and areas),
+//! `variation_value` (how much bodies differ).
 
 mod agent_area;
 mod agent_groups;
@@ -23,6 +24,7 @@ mod profile_tables;
 mod reading;
 mod scenario_file;
 mod sources;
+mod variation_value;
 mod wkt_polygons;
 mod zone_tables;
 

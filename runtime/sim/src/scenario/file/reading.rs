@@ -30,6 +30,7 @@ use crate::scenario::resolved::{SEED, Scenario};
 use crate::scenario::rules::check::check;
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::measure_check::check_zones;
+use crate::variation::Variation;
 
 /// Reads a scenario file and the agent files that it names. The source of its motion is a result of its own: a caller
 /// that brings a database does not need the one that the file names.
@@ -83,6 +84,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         characters: characters.clone(),
         cameras: file.cameras().map(|camera| camera.get_ref().clone()).collect(),
         shot: file.shot.as_ref().map(|shot| shot.get_ref().clone()),
+        variation: file.variation.as_ref().map_or(Some(Variation::default()), |value| value.get_ref().0),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
@@ -165,6 +167,7 @@ impl ScenarioTexts<'_> {
             ScenarioPart::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::Shot => file.shot.as_ref().map_or(0..0, Spanned::span),
+            ScenarioPart::Variation => file.variation.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::Parameter(ref section, ref key) => parameter_span(source, section, key),
             ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
             ScenarioPart::Obstacle(index) => of(&file.obstacles, &ground.solids, index),

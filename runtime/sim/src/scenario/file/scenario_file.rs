@@ -26,6 +26,7 @@
 //! [[characters]]                      # figures that bodies are drawn as: see `character_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
+//! [variation]                         # how much bodies differ; or `variation = false`: see `variation_value.rs`
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
 //! [params.synthesis]
 //! [view]
@@ -52,6 +53,7 @@ use crate::scenario::file::marking_tables::MarkingTable;
 use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::sources::SourceTable;
+use crate::scenario::file::variation_value::VariationValue;
 use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::shot_spec::ShotSpec;
@@ -115,6 +117,7 @@ pub(crate) struct ScenarioFile {
     pub(crate) markings: Vec<Spanned<MarkingTable>>,
     #[serde(default)]
     pub(crate) characters: Vec<Spanned<CharacterTable>>,
+    pub(crate) variation: Option<Spanned<VariationValue>>,
     #[serde(default)]
     pub(crate) params: Params,
     pub(crate) view: Option<Spanned<View>>,

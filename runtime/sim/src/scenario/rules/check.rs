@@ -19,6 +19,7 @@ use crate::scenario::rules::marking_check::check_markings;
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
 use crate::scenario::rules::shot_check::check_shot;
 use crate::scenario::rules::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
+use crate::scenario::rules::variation_check::check_variation;
 use crate::scenario::rules::zone_check::check_closed_zones;
 
 /// Distance from an obstacle's box beyond which no disc touches the obstacle, m.
@@ -58,6 +59,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_heights(&scenario.obstacle_heights_m)?;
     check_cameras(&scenario.cameras)?;
     scenario.shot.as_ref().map_or(Ok(()), |shot| check_shot(shot, scenario.duration_s))?;
+    scenario.variation.as_ref().map_or(Ok(()), check_variation)?;
     check_source_ranges(scenario)
 }
 

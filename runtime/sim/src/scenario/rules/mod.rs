@@ -4,7 +4,7 @@
 //!
 //! Read `check` (all rules, cheapest first); then `ground_check` (walls), `behaviour_check` (goals, states, signals),
 //! `source_check` with `schedule_check`, `measure_check` (lines, areas, zones), `zone_check` (zones that are closed to some
-//! agents), `marking_check` (markings, labels) and `camera_check`.
+//! agents), `marking_check` (markings, labels), `camera_check` and `variation_check`.
 
 pub(crate) mod behaviour_check;
 mod camera_check;
@@ -15,6 +15,7 @@ pub(crate) mod measure_check;
 pub(crate) mod schedule_check;
 pub(crate) mod shot_check;
 mod source_check;
+mod variation_check;
 mod zone_check;
 
 pub use check::check;

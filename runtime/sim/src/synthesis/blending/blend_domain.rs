@@ -8,12 +8,18 @@ use motiondb::blend_space::{Locator, MAX_CORNERS, Shares};
 use motiondb::motion::{MotionDb, Parameters};
 use motiondb::velocity_sets::velocity_hull::is_holding;
 
+use crate::synthesis::blending::cadence_curve::CadenceCurve;
 use crate::synthesis::blending::example_mix::ExampleMix;
 use crate::synthesis::blending::pose_landmarks::PoseLandmarks;
 
 /// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie straight beyond
 /// the query.
 const BESIDE_ITERATIONS: usize = 16;
+/// Greatest number of iterations for the least rate at which the examples reach a query. One suffices where the border of
+/// the hull is flat between the first found point and the query's ray.
+const RATE_ITERATIONS: usize = 3;
+/// Distance from a query, divided by its length, below which the examples reach it.
+const REACHED: f32 = 1e-4;
 
 /// The blend domain of one database.
 #[derive(Clone, Debug)]
@@ -25,6 +31,8 @@ pub struct BlendDomain {
     stands: Vec<bool>,
     /// Landmarks that measure how far a change of weights moves the pose.
     pub(crate) landmarks: PoseLandmarks,
+    /// Cadence of straight walks over speed.
+    cadence: CadenceCurve,
     /// Factor of each axis of (v_f, ω_t, ω_s) in distances; 0 for an axis without range.
     axis_scale: Vec3,
     /// Example that stands and belongs to no simplex ([`crate::synthesis::library::standing`]).
@@ -50,6 +58,8 @@ pub struct Reachable {
     pub idle_share: f32,
     /// Shares of time of the examples.
     pub shares: Shares,
+    /// Rate at which the examples play, divided by that of the clips.
+    pub playback_rate: f32,
 }
 
 impl BlendDomain {
@@ -60,6 +70,7 @@ impl BlendDomain {
         let stands: Vec<bool> = db.examples.iter().map(|example| example.key_times_s.is_none()).collect();
         let mut domain = Self {
             standing: Reachable::default(),
+            cadence: CadenceCurve::new(|_| 1.0),
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
             stands,
@@ -71,6 +82,11 @@ impl BlendDomain {
             locator: Locator::new(&db.blend_space, &parameters),
             parameters,
         };
+        let strides_hz = |example: usize| 1.0 / db.examples[example].phase_map.period_s;
+        domain.cadence = CadenceCurve::new(|parameters| {
+            let Shares { examples, shares } = domain.locate(parameters);
+            examples.into_iter().zip(shares).map(|(example, share)| share * strides_hz(example as usize)).sum()
+        });
         domain.standing = domain.reachable(Parameters::default());
         let standing = ExampleMix::new(&domain.standing.shares).weights(db, 0.0).pose(db, 0.0);
         let joints = standing.forward_kinematics(&db.skeleton);
@@ -80,10 +96,39 @@ impl BlendDomain {
 
     /// The nearest point to a query that the examples reach.
     pub fn reachable(&self, query: Parameters) -> Reachable {
-        let shares = self.locate(query);
+        self.played(query, 1.0)
+    }
+
+    /// The nearest point to a query that a body reaches with `cadence` times the cadence of others. Where the examples
+    /// reach it only at a greater rate than that body's, they play at that one, up to 1: long strides yield first.
+    pub(crate) fn reachable_with(&self, query: Parameters, cadence: f32) -> Reachable {
+        let speed_mps = Vec2::new(query.speed_mps, query.strafe_mps).length();
+        let mut reachable = self.played(query, self.cadence.playback_rate(speed_mps, cadence));
+        for _ in 0..RATE_ITERATIONS {
+            if reachable.playback_rate >= 1.0 {
+                break;
+            }
+            let wanted = query.to_vec3() * self.axis_scale;
+            let found = reachable.parameters.to_vec3() * self.axis_scale;
+            let beyond = wanted - found;
+            if beyond.length() < REACHED * wanted.length() {
+                break;
+            }
+            // The border of the hull at the found point meets the ray of the query at this rate.
+            let quicker = reachable.playback_rate * beyond.dot(wanted) / beyond.dot(found);
+            let playback_rate = if quicker > reachable.playback_rate { quicker.min(1.0) } else { 1.0 };
+            reachable = self.played(query, playback_rate);
+        }
+        reachable
+    }
+
+    /// The nearest point to a query that the examples reach at exactly this rate.
+    fn played(&self, query: Parameters, playback_rate: f32) -> Reachable {
+        let shares = self.locate(Parameters::from_vec3(query.to_vec3() / playback_rate));
         let idle = shares.examples.into_iter().zip(shares.shares).filter(|entry| self.stands[entry.0 as usize]);
         let idle_share = idle.map(|entry| entry.1).sum();
-        Reachable { parameters: Parameters::from_vec3(self.weighted_sum(&shares)), idle_share, shares }
+        let parameters = Parameters::from_vec3(playback_rate * self.weighted_sum(&shares));
+        Reachable { parameters, idle_share, shares, playback_rate }
     }
 
     /// Shares of time of the examples at that point.

@@ -27,7 +27,7 @@ pub struct ExampleMix {
     /// (example, share); the first `count` entries are in use.
     entries: [(u32, f32); MIX_MAX],
     count: usize,
-    /// Playback rate over the examples' own time: 1, but less for the slowest steps
+    /// Playback rate over the examples' own time: that of the body's traits, but less for the slowest steps
     /// ([`crate::synthesis::command::step_state`]). Root and phase slow down alike, so planted feet hold.
     playback_rate: f32,
 }
@@ -35,7 +35,12 @@ pub struct ExampleMix {
 impl ExampleMix {
     /// A mix of exactly these shares, in the examples' own time.
     pub fn new(shares: &Shares) -> Self {
-        let mut mix = Self { entries: Default::default(), count: 0, playback_rate: 1.0 };
+        Self::played(shares, 1.0)
+    }
+
+    /// A mix of exactly these shares, played at a rate.
+    pub(crate) fn played(shares: &Shares, playback_rate: f32) -> Self {
+        let mut mix = Self { entries: Default::default(), count: 0, playback_rate };
         mix.add(entries_of(shares), 1.0);
         mix
     }
@@ -108,6 +113,12 @@ impl ExampleMix {
         let terms =
             self.entries().iter().map(|&(example, share)| share * db.examples[example as usize].parameters.to_vec3());
         Parameters::from_vec3(self.playback_rate * terms.fold(Vec3::ZERO, |sum, term| sum + term))
+    }
+
+    /// Mean phase rate over a cycle, times the playback rate, 1/s.
+    pub(crate) fn strides_hz(&self, db: &MotionDb) -> f32 {
+        let strides_hz = |example: u32| 1.0 / db.examples[example as usize].phase_map.period_s;
+        self.playback_rate * self.entries().iter().map(|&(example, share)| share * strides_hz(example)).sum::<f32>()
     }
 
     /// φ' = Σ u_i·r_i(φ), times the playback rate, 1/s.

@@ -11,7 +11,7 @@ use crate::synthesis::command::command_filter::CommandFilter;
 use crate::synthesis::command::displacement_accumulator::DisplacementAccumulator;
 use crate::synthesis::command::step_state::StepState;
 use crate::synthesis::semi_procedural::BaseWalk;
-use crate::synthesis::{SynthesisContext, TimeStep};
+use crate::synthesis::{SynthesisContext, TimeStep, Traits};
 
 /// Displacement accumulator, command filter and step state of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,7 @@ impl CommandState {
         plan: &Plan,
         facing_rad: f32,
         deformed: Option<(&BaseWalk, Parameters)>,
+        traits: &Traits,
         context: &SynthesisContext,
         step: &TimeStep,
     ) -> Reachable {
@@ -46,13 +47,13 @@ impl CommandState {
         match deformed {
             None => {
                 filter.follow(requested_of_blending(plan, facing_rad, domain, params), step_state.stands, step);
-                step_state.reachable(filter, domain)
+                step_state.reachable(filter, domain, traits)
             }
             Some((base_walk, current)) => {
                 let turning_rad = step.dt_s * current.turn_rate_rad_s;
                 filter.turn(turning_rad);
                 filter.follow(requested_of_base_walk(plan, facing_rad, turning_rad, base_walk, params), false, step);
-                domain.reachable(filter.command)
+                domain.reachable_with(filter.command, traits.cadence)
             }
         }
     }

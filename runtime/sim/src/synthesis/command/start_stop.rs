@@ -6,6 +6,7 @@ use glam::Vec2;
 use motiondb::body::Root;
 use motiondb::motion::Parameters;
 
+use crate::synthesis::Traits;
 use crate::synthesis::blending::BlendDomain;
 use crate::synthesis::pose::ContactState;
 
@@ -18,8 +19,15 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 const SIDE_LEAD_M: f32 = 0.1;
 
 /// Phase of the first step; the phase of a standing body is free, since standing hardly moves. The foot that lifts is
-/// the one further behind, or the one on the side of the step. So the other foot is under the body.
-pub(crate) fn first_step_phase(command: Parameters, contact: &ContactState, root: &Root, domain: &BlendDomain) -> f32 {
+/// the one further behind, or the one on the side of the step; where neither is, the body's first foot. So the other
+/// foot is under the body.
+pub(crate) fn first_step_phase(
+    command: Parameters,
+    contact: &ContactState,
+    root: &Root,
+    domain: &BlendDomain,
+    traits: &Traits,
+) -> f32 {
     let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = command;
     let (direction, frame) = (Vec2::new(speed_mps, strafe_mps).normalize_or_zero(), root.frame());
     let ahead_m = [0, 1].map(|side| {
@@ -27,7 +35,7 @@ pub(crate) fn first_step_phase(command: Parameters, contact: &ContactState, root
         ball_m.truncate().dot(direction)
     });
     let to_left = direction.y + turn_rate_rad_s / domain.turn_rate_max_rad_s;
-    let passing_phase = if ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left { 1.0 } else { 0.5 };
+    let passing_phase = if ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left + traits.first_foot_m { 1.0 } else { 0.5 };
     passing_phase - LIFT_OFF_PHASE
 }
 

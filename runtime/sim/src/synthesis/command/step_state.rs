@@ -11,6 +11,7 @@ use glam::Vec2;
 use motiondb::blend_space::Shares;
 use motiondb::motion::Parameters;
 
+use crate::synthesis::Traits;
 use crate::synthesis::blending::{BlendDomain, Reachable};
 use crate::synthesis::command::command_filter::CommandFilter;
 
@@ -71,11 +72,15 @@ impl StepState {
 
     /// What the examples reach of a command. Where the command of a stepping body passes through rest, the command
     /// [`PASSING_TIME_S`] later counts.
-    pub(crate) fn reachable(&self, filter: &CommandFilter, domain: &BlendDomain) -> Reachable {
-        let reachable = domain.reachable(filter.command);
+    pub(crate) fn reachable(&self, filter: &CommandFilter, domain: &BlendDomain, traits: &Traits) -> Reachable {
+        let reachable = domain.reachable_with(filter.command, traits.cadence);
         let rests = !self.stands && reachable.idle_share > STOP_IDLE_SHARE;
         let later = filter.ahead(PASSING_TIME_S);
-        if rests && idle_share_max(later) < STOP_IDLE_SHARE { domain.reachable(later) } else { reachable }
+        if rests && idle_share_max(later) < STOP_IDLE_SHARE {
+            domain.reachable_with(later, traits.cadence)
+        } else {
+            reachable
+        }
     }
 
     /// Whether the body walks and its command continues the walk.
@@ -85,12 +90,19 @@ impl StepState {
 
     /// Target of the active motion: what the examples reach of the command, at no less than the least steps; standing
     /// for a body that stands. `current` gives the direction of the steps that gather the feet.
-    pub(crate) fn target(&self, reachable: &Reachable, current: Parameters, domain: &BlendDomain) -> Parameters {
+    pub(crate) fn target(
+        &self,
+        reachable: &Reachable,
+        current: Parameters,
+        domain: &BlendDomain,
+        traits: &Traits,
+    ) -> Parameters {
         if self.stands {
             return domain.standing.parameters;
         }
         let steps = if reachable.idle_share > HALT_IDLE_SHARE {
-            &domain.reachable(Parameters::from_vec3(GATHERING_SPEED_SHARE * current.to_vec3()))
+            let gathering = Parameters::from_vec3(GATHERING_SPEED_SHARE * current.to_vec3());
+            &domain.reachable_with(gathering, traits.cadence)
         } else {
             reachable
         };
@@ -101,14 +113,14 @@ impl StepState {
         Parameters::from_vec3(scale * steps.parameters.to_vec3())
     }
 
-    /// Shares and playback rate for parameters that the examples reach.
+    /// Shares, and playback rate over that of the body's steps, for parameters that the examples reach.
     pub(crate) fn playback(&self, reachable: &Reachable, domain: &BlendDomain) -> (Shares, f32) {
         let stepping_share = 1.0 - reachable.idle_share;
         if self.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
             return (reachable.shares, 1.0);
         }
         let rate = stepping_share / (1.0 - IDLE_SHARE_MAX);
-        let least_steps = Parameters::from_vec3(reachable.parameters.to_vec3() / rate);
+        let least_steps = Parameters::from_vec3(reachable.parameters.to_vec3() / (rate * reachable.playback_rate));
         (domain.locate(least_steps), rate.max(PLAYBACK_RATE_MIN))
     }
 }
@@ -126,7 +138,7 @@ mod tests {
     fn bodies_without_slow_steps_start_too() {
         // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
         let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
-        let reachable = Reachable { parameters, idle_share: 0.92, ..Reachable::default() };
+        let reachable = Reachable { parameters, idle_share: 0.92, playback_rate: 1.0, ..Reachable::default() };
         let mut step_state = StepState::STANDING;
         assert!(step_state.follow(&reachable, || true, 1.0 / 30.0));
     }

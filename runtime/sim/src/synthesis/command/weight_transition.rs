@@ -14,15 +14,17 @@
 use motiondb::blend_space::Shares;
 use motiondb::motion::Parameters;
 
-use crate::synthesis::SynthesisContext;
 use crate::synthesis::blending::{ExampleMix, Reachable};
 use crate::synthesis::command::acceleration_limit::limited_along_line;
 use crate::synthesis::command::step_state::{PLAYBACK_RATE_MIN, StepState};
+use crate::synthesis::{SynthesisContext, Traits};
 
 /// Shares and playback rate to move to.
 struct ShareTarget {
     shares: Shares,
     playback_rate: f32,
+    /// Whether the playback rate is the least.
+    creeps: bool,
     /// Fraction of the change of shares in this step.
     fraction: f32,
     /// Fraction of the line to the target that the root then has passed.
@@ -35,6 +37,7 @@ pub(crate) fn follow(
     target: Parameters,
     known: &Reachable,
     step_state: StepState,
+    traits: &Traits,
     context: &SynthesisContext,
     dt_s: f32,
 ) {
@@ -43,17 +46,23 @@ pub(crate) fn follow(
     let line = target.to_vec3() - current.to_vec3();
     let next_part = (next.to_vec3() - current.to_vec3()).length() / line.length().max(f32::MIN_POSITIVE);
     let share_target = |point: Parameters, part: f32| {
-        let reachable = if point == known.parameters { *known } else { context.domain.reachable(point) };
-        let (shares, playback_rate) = step_state.playback(&reachable, &context.domain);
+        let reachable = || context.domain.reachable_with(point, traits.cadence);
+        let reachable = if point == known.parameters { *known } else { reachable() };
+        let (shares, slowing) = step_state.playback(&reachable, &context.domain);
         // The root accelerates no faster than its limit.
         let fraction =
             pose_limited_fraction(mix, &shares, context, dt_s).min(next_part / part.max(f32::MIN_POSITIVE)).min(1.0);
-        ShareTarget { shares, playback_rate, fraction, passed: fraction * part }
+        ShareTarget {
+            shares,
+            playback_rate: slowing * reachable.playback_rate,
+            creeps: slowing <= PLAYBACK_RATE_MIN,
+            fraction,
+            passed: fraction * part,
+        }
     };
     let near = share_target(next, next_part);
-    let creeps = near.playback_rate <= PLAYBACK_RATE_MIN;
-    let far = (next != target && (creeps || near.fraction < 1.0)).then(|| share_target(target, 1.0));
-    let far = far.filter(|far| creeps || far.passed > near.passed);
+    let far = (next != target && (near.creeps || near.fraction < 1.0)).then(|| share_target(target, 1.0));
+    let far = far.filter(|far| near.creeps || far.passed > near.passed);
     let ShareTarget { shares, playback_rate, fraction, .. } = far.unwrap_or(near);
     mix.approach(&shares, playback_rate, fraction);
 }

@@ -3,12 +3,11 @@
 //! Root frame (x forward, y left, z up), metres; seconds.
 
 use crate::planning::plan::PLANTED_CONTACT;
-use crate::synthesis::blending::{ExampleMix, PoseWeights};
+use crate::synthesis::SynthesisContext;
+use crate::synthesis::blending::PoseWeights;
 use crate::synthesis::hybrid::idle_clock::IdleClock;
-use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::pose::Posture;
 use crate::synthesis::semi_procedural::Deformation;
-use crate::synthesis::{Mode, SynthesisContext};
 
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]
@@ -26,28 +25,7 @@ pub(crate) enum ActiveMotion<'a> {
     SemiProcedural(Deformation<'a>),
 }
 
-impl<'a> ActiveMotion<'a> {
-    /// The active motion of a body at a phase.
-    pub(crate) fn new(
-        context: &'a SynthesisContext,
-        mode: Mode,
-        smoothed: &SmoothedMotion,
-        mix: &ExampleMix,
-        idle: IdleClock,
-        phase: f32,
-    ) -> Self {
-        match (mode, &context.hybrid) {
-            (Mode::SemiProcedural, Some(hybrid)) => {
-                Self::SemiProcedural(Deformation::travelling(&hybrid.base_walk, smoothed.parameters, smoothed.travel))
-            }
-            _ => Self::Blending {
-                drawn: smoothed.mix.weights(&context.db, phase),
-                current: mix.weights(&context.db, phase),
-                idle,
-            },
-        }
-    }
-
+impl ActiveMotion<'_> {
     /// The pose with its legs bent to the targets of the feet.
     pub(crate) fn bent_posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
         let mut posture = self.posture(context, phase);

@@ -2,8 +2,10 @@
 //!
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
+use motiondb::body::Root;
 use motiondb::motion::{MotionDb, Parameters};
 
+use crate::maths::arc::moved_root;
 use crate::synthesis::blending::example_mix::advanced_phase;
 use crate::synthesis::blending::{ExampleMix, Reachable};
 use crate::synthesis::command::acceleration_limit::limited_by_axis;
@@ -14,9 +16,10 @@ use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::inertialization::Inertialization;
 use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
-use crate::synthesis::semi_procedural::BaseWalk;
+use crate::synthesis::hybrid::step_timing::StepTiming;
 use crate::synthesis::semi_procedural::deformation::Tempo;
-use crate::synthesis::{Mode, SynthesisContext, TimeStep};
+use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
+use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
 
 /// The active motion, the drawn motion that follows it, and the pose offset of the last switch.
 #[derive(Clone, Copy, Debug)]
@@ -35,16 +38,23 @@ pub struct MotionState {
     pub(crate) phase_catch_up: PhaseCatchUp,
     /// What is drawn of the motion: after this step, and after the last.
     pub smoothed: [SmoothedMotion; 2],
+    /// Pace of the steps, and the body's lead over its root.
+    pub(crate) timing: StepTiming,
     /// The idle in which the body stands.
     pub(crate) idle: IdleClock,
+    /// Whether the motion has jumped since the last pose, which inertialization carries.
+    pub(crate) has_jumped: bool,
+    /// What the body does unlike others; it never changes.
+    pub(crate) traits: Traits,
     /// Difference of poses that a switch has left.
     pub(crate) inertialization: Inertialization,
 }
 
 impl MotionState {
     /// The motion of a body that stands. The phase, in [0, 1), is also the draw of its idle.
-    pub(crate) fn standing(context: &SynthesisContext, phase: f32) -> Self {
-        let mix = ExampleMix::new(&context.domain.standing.shares);
+    pub(crate) fn standing(context: &SynthesisContext, phase: f32, traits: Traits) -> Self {
+        let standing = context.domain.reachable_with(Parameters::default(), traits.cadence);
+        let mix = ExampleMix::played(&standing.shares, standing.playback_rate);
         Self {
             mode: Mode::Blending,
             selection: ModeSelection::BLENDING,
@@ -53,7 +63,10 @@ impl MotionState {
             phase,
             phase_catch_up: PhaseCatchUp::default(),
             smoothed: [SmoothedMotion::standing(mix); 2],
+            timing: StepTiming::default(),
             idle: IdleClock::drawn(&context.db, phase),
+            has_jumped: false,
+            traits,
             inertialization: Inertialization::default(),
         }
     }
@@ -74,7 +87,30 @@ impl MotionState {
 
     /// The active motion at the present phase, as it is drawn.
     pub(crate) fn active<'a>(&self, context: &'a SynthesisContext) -> ActiveMotion<'a> {
-        ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.idle, self.phase)
+        self.drawn(context, &self.smoothed[0], self.idle, self.phase)
+    }
+
+    /// The active motion, drawn from a mix, an idle and a phase.
+    pub(crate) fn drawn<'a>(
+        &self,
+        context: &'a SynthesisContext,
+        smoothed: &SmoothedMotion,
+        idle: IdleClock,
+        phase: f32,
+    ) -> ActiveMotion<'a> {
+        match (self.mode, &context.hybrid) {
+            (Mode::SemiProcedural, Some(hybrid)) => {
+                let SmoothedMotion { parameters, travel, .. } = *smoothed;
+                let cadence = self.traits.cadence;
+                let deformation = Deformation::travelling(&hybrid.base_walk, parameters, travel, cadence);
+                ActiveMotion::SemiProcedural(deformation)
+            }
+            _ => ActiveMotion::Blending {
+                drawn: smoothed.mix.weights(&context.db, phase),
+                current: self.mix.weights(&context.db, phase),
+                idle,
+            },
+        }
     }
 
     /// The target toward which the motion moves: the command, as far as the active mode and the selected one reach
@@ -89,7 +125,8 @@ impl MotionState {
             (Mode::SemiProcedural, Mode::SemiProcedural, _) => command.filter.command,
             (Mode::SemiProcedural, Mode::Blending, _) => self.committed(context).unwrap_or(reachable.parameters),
             (Mode::Blending, selected, hybrid) => {
-                let steps = || command.step_state.target(reachable, self.current(&context.db), &context.domain);
+                let steps =
+                    || command.step_state.target(reachable, self.current(&context.db), &context.domain, &self.traits);
                 let target = self.committed(context).unwrap_or_else(steps);
                 let hybrid = hybrid.as_ref().filter(|_| selected == Mode::SemiProcedural);
                 hybrid.map_or(target, |hybrid| hybrid.base_walk.reachable(target))
@@ -108,7 +145,8 @@ impl MotionState {
     ) {
         match self.mode {
             Mode::Blending => {
-                weight_transition::follow(&mut self.mix, target, reachable, command.step_state, context, dt_s);
+                let (step_state, traits) = (command.step_state, &self.traits);
+                weight_transition::follow(&mut self.mix, target, reachable, step_state, traits, context, dt_s);
             }
             Mode::SemiProcedural => {
                 self.parameters = limited_by_axis(self.parameters, target, &context.params, dt_s);
@@ -116,11 +154,33 @@ impl MotionState {
         }
     }
 
+    /// Lets the pace of the steps follow the motion over one step.
+    pub(crate) fn time_steps(&mut self, context: &SynthesisContext, step: &TimeStep) {
+        let mean_hz = match self.deformed(context) {
+            Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
+            None => self.mix.strides_hz(&context.db),
+        };
+        self.timing.follow(self.phase, mean_hz, self.traits.cadence * context.base_hz, step);
+    }
+
+    /// The root under the body as it is drawn, for a body at `root`: ahead of it or behind by the lead.
+    pub(crate) fn drawn_root(&self, root: &Root, db: &MotionDb) -> Root {
+        let parameters = match self.mode {
+            Mode::Blending => self.smoothed[0].mix.parameters(db),
+            Mode::SemiProcedural => self.smoothed[0].parameters,
+        };
+        if self.timing.lead_s == 0.0 { *root } else { moved_root(root, &parameters, self.timing.lead_s) }
+    }
+
+    fn tempo<'a>(&self, base_walk: &'a BaseWalk, parameters: Parameters) -> Tempo<'a> {
+        Tempo::new(base_walk, parameters, self.smoothed[0].travel, self.traits.cadence)
+    }
+
     /// Advances the phase by a duration of the motion's own time, s.
     pub(crate) fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
         self.phase = match self.deformed(context) {
             Some((base_walk, parameters)) => {
-                let map = Tempo::new(base_walk, parameters, self.smoothed[0].travel).phase_map();
+                let map = self.tempo(base_walk, parameters).phase_map();
                 advanced_phase(self.phase, duration_s, |phase| map.rate_hz(phase))
             }
             None => self.mix.advanced_phase(&context.db, self.phase, duration_s),

@@ -9,7 +9,6 @@ use motiondb::motion::{Parameters, wrapped};
 
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::ExampleMix;
-use crate::synthesis::hybrid::active_motion::ActiveMotion;
 use crate::synthesis::hybrid::mode_selection::ModeThresholds;
 use crate::synthesis::hybrid::motion_state::MotionState;
 use crate::synthesis::library::HybridData;
@@ -61,7 +60,7 @@ impl MotionState {
         let current = self.current(&context.db);
         let reached = self.committed(context).unwrap_or_else(|| match self.mode {
             Mode::Blending => hybrid.base_walk.reachable(current),
-            Mode::SemiProcedural => context.domain.reachable(current).parameters,
+            Mode::SemiProcedural => context.domain.reachable_with(current, self.traits.cadence).parameters,
         });
         current.to_vec3().distance(reached.to_vec3()) <= SWITCH_TOLERANCE
     }
@@ -76,7 +75,8 @@ impl MotionState {
                 }
             }
             Mode::Blending => {
-                self.mix = ExampleMix::new(&context.domain.locate(self.parameters));
+                let reachable = context.domain.reachable_with(self.parameters, self.traits.cadence);
+                self.mix = ExampleMix::played(&reachable.shares, reachable.playback_rate);
                 // Smoothing starts without a lag: inertialization carries what the old pose still lagged.
                 self.smoothed.iter_mut().for_each(|smoothed| smoothed.mix = self.mix);
             }
@@ -88,7 +88,7 @@ impl MotionState {
     /// speed, is most similar a little earlier or later.
     fn most_similar_phase(&self, soles_m: &[[Vec3; 3]; 2], near: f32, context: &SynthesisContext) -> f32 {
         let distance_m2 = |phase: f32| {
-            let active = ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.idle, phase);
+            let active = self.drawn(context, &self.smoothed[0], self.idle, phase);
             let there_m = active.posture(context, phase).soles_m(&context.db.skeleton);
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
@@ -110,6 +110,7 @@ impl MotionState {
     pub(crate) fn jump(&mut self, context: &SynthesisContext, step: &TimeStep, change: impl FnOnce(&mut Self)) {
         let old = self.poses(context, step);
         change(self);
+        self.has_jumped = true;
         let new = self.poses(context, step);
         self.inertialization.begin(old.each_ref(), new.each_ref(), step.look_back_s);
     }
@@ -117,12 +118,13 @@ impl MotionState {
     /// The drawn poses, now and [`TimeStep::look_back_s`] before.
     fn poses(&self, context: &SynthesisContext, step: &TimeStep) -> [Pose; 2] {
         let active = self.active(context);
-        let earlier_phase = wrapped(self.phase - step.look_back_s * active.phase_rate_hz(self.phase));
+        let earlier_phase =
+            wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(self.phase));
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
         let mut earlier_idle = self.idle;
         earlier_idle.advance(&context.db, -step.look_back_s);
-        let earlier = ActiveMotion::new(context, self.mode, &smoothed, &self.mix, earlier_idle, earlier_phase);
+        let earlier = self.drawn(context, &smoothed, earlier_idle, earlier_phase);
         [active.bent_posture(context, self.phase).pose, earlier.bent_posture(context, earlier_phase).pose]
     }
 }

@@ -55,7 +55,7 @@ pub fn deformed_walk<'a>(db: &'a MotionDb, augmented: &MotionDb) -> Option<(&'a 
 }
 
 /// Index of m_sp, or of the only example with steps.
-fn walk(db: &MotionDb) -> Option<usize> {
+pub(crate) fn walk(db: &MotionDb) -> Option<usize> {
     let m_sp = db.correspondence.as_ref().map(|found| found.semi_procedural as usize);
     m_sp.or_else(|| db.examples.iter().position(|example| example.key_times_s.is_some()))
 }

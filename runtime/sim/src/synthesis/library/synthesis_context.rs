@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::Quat;
+use motiondb::body::JOINT_COUNT;
 use motiondb::motion::MotionDb;
 
 use crate::synthesis::HmsParams;
 use crate::synthesis::blending::BlendDomain;
-use crate::synthesis::library::augmented_database::augmented;
+use crate::synthesis::library::augmented_database::{augmented, walk};
 use crate::synthesis::library::hybrid_data::HybridData;
 
 /// A database and what the synthesis derives from it, shared by all bodies.
@@ -31,6 +33,10 @@ pub struct SynthesisContext {
     pub domain: BlendDomain,
     /// Data of hybrid synthesis; `None` where bodies only blend.
     pub hybrid: Option<HybridData>,
+    /// Mean rotation of each joint in the base walk, or in the first example where none walks.
+    pub mean_rotations: [Quat; JOINT_COUNT],
+    /// Strides per second of the base walk.
+    pub base_hz: f32,
     /// Tunables.
     pub params: HmsParams,
 }
@@ -39,6 +45,9 @@ impl SynthesisContext {
     /// Prepares a database for the syntheses that the tunables name.
     pub fn new(db: Arc<MotionDb>, params: HmsParams) -> Self {
         let db = augmented(db);
-        Self { domain: BlendDomain::new(&db), hybrid: HybridData::new(&db, params.modes), db, params }
+        let base = walk(&db).unwrap_or(0);
+        let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
+        let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
+        Self { domain, hybrid, mean_rotations, base_hz, db, params }
     }
 }

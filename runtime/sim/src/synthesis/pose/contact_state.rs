@@ -2,12 +2,13 @@
 //!
 //! Postures and soles are in the root frame (x forward, y left, z up), the locks in the world; metres.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use motiondb::body::{RootFrame, Skeleton};
 
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot};
 use crate::synthesis::pose::leg::FootPose;
+use crate::synthesis::pose::leg_clearance::away_m;
 use crate::synthesis::pose::pelvis::PelvisDrop;
 use crate::synthesis::pose::posture::Posture;
 
@@ -16,7 +17,7 @@ use crate::synthesis::pose::posture::Posture;
 pub(crate) struct ContactState {
     /// Lock of each foot, `[left, right]`.
     pub locks: [FootLock; 2],
-    /// Drop of the pelvis for locked feet.
+    /// Drop of the pelvis.
     pelvis_drop: PelvisDrop,
 }
 
@@ -29,24 +30,33 @@ impl ContactState {
     }
 
     /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require. `contacts_ahead`
-    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
+    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later; `is_new_motion`
+    /// is true in the first step after a switch.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
         planted: [bool; 2],
         contacts_ahead: [f32; 2],
+        is_new_motion: bool,
         frame: &RootFrame,
         skeleton: &Skeleton,
         step: &TimeStep,
     ) {
         let soles_m = posture.soles_m(skeleton);
-        let locked = [0, 1].map(|side| {
-            let foot = &posture.feet[side];
+        // The stance foot first: the other one avoids it.
+        let first = usize::from(!self.locks[0].planted());
+        let mut locked = posture.feet;
+        for side in [first, 1 - first] {
+            let (foot, other) = (&posture.feet[side], &posture.feet[1 - side]);
             let posed = posed_foot(frame, foot, soles_m[side]);
-            let locked = self.locks[side].step(&posed, planted[side], contacts_ahead[side], step);
-            FootPose { ankle_m: frame.to_local(locked.ankle_m), orientation: locked.twist * foot.orientation }
-        });
-        posture.lock_feet(locked, |required_m| self.pelvis_drop.follow(required_m, step));
+            let passes = side != first && self.locks[first].planted();
+            let away_m = || away_m(side, foot.ankle_m, other.ankle_m, locked[first].ankle_m);
+            let away_m = if passes { frame.forward.rotate(away_m()) } else { Vec2::ZERO };
+            let lock = self.locks[side].step(&posed, planted[side], contacts_ahead[side], away_m, step);
+            locked[side] =
+                FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
+        }
+        posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, is_new_motion, step));
     }
 
     /// Records the soles as the legs could draw them.

@@ -6,7 +6,8 @@
 //!
 //! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point
 //!   rests; the foot still rolls, because the pose determines its pitch.
-//! - *Swinging*: c and ψ decay by a critically damped filter of the third order that starts at their rates. Neither
+//! - *Swinging*: c and ψ decay, c to a shift that avoids the other leg ([`crate::synthesis::pose::leg_clearance`]),
+//!   by a critically damped filter of the third order that starts at their rates. Neither
 //!   velocity nor acceleration of the foot jumps at toe-off.
 //!
 //! World frame, metres and radians. z is the height above the ground, equal in world and root frame.
@@ -18,10 +19,13 @@ use crate::maths::decay::soft_maximum;
 use crate::synthesis::TimeStep;
 use crate::synthesis::time_step::LANDING_TIME_S;
 
-/// Toe clearance of a swinging foot in walking, m (Winter 1992): blends with standing would drag the toes.
-const CLEARANCE_M: f32 = 0.013;
+/// Clearance of a swinging foot in short steps and in walking, m: captured steps of 15 to 30 cm lift the sole by 16
+/// to 23 mm; toes in walking clear 13 mm (Winter 1992). Blends with standing would drag the toes.
+const CLEARANCES_M: [f32; 2] = [0.024, 0.013];
+/// Speeds of the foot in the middle of such swings, m/s.
+const CLEARANCE_SPEEDS_MPS: [f32; 2] = [1.0, 2.5];
 /// Speed from which on a foot needs the whole clearance, m/s: a foot that leaves the ground begins slowly.
-const CLEARANCE_SPEED_MPS: f32 = 1.0;
+const LIFTED_SPEED_MPS: f32 = 0.5;
 /// A foot that lands within this time needs no clearance, s.
 pub(crate) const LANDING_AHEAD_S: f32 = 0.06;
 /// Softness of the lift at the clearance, m: lifting has no edge.
@@ -94,15 +98,23 @@ impl FootLock {
         Self { lowest, height_m, heading_m: posed.heading_m(), sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later.
-    pub(crate) fn step(&mut self, posed: &PosedFoot, planted: bool, contact_ahead: f32, step: &TimeStep) -> LockedFoot {
+    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later, `away_m`
+    /// the shift to which a swinging foot moves because the other leg stands in its path.
+    pub(crate) fn step(
+        &mut self,
+        posed: &PosedFoot,
+        planted: bool,
+        contact_ahead: f32,
+        away_m: Vec2,
+        step: &TimeStep,
+    ) -> LockedFoot {
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
         // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
         if planted && self.planted {
             self.hold(posed, lowest, angle_between_rad(self.heading_m, heading_m), step);
         } else {
-            self.release(step);
+            self.release(away_m, step);
             self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_m) = (planted, lowest, heading_m);
@@ -165,9 +177,11 @@ impl FootLock {
         rested_m.truncate() + along_m.truncate().normalize_or_zero() * along_m.length()
     }
 
-    /// Lets shift and twist decay.
-    fn release(&mut self, step: &TimeStep) {
-        self.shift_m = step.lock_release.decayed(self.shift_m);
+    /// Lets the shift decay to another, and the twist to none.
+    fn release(&mut self, away_m: Vec2, step: &TimeStep) {
+        let [shift_m, mps, mps2] = self.shift_m;
+        let [off_m, mps, mps2] = step.lock_release.decayed([shift_m - away_m, mps, mps2]);
+        self.shift_m = [away_m + off_m, mps, mps2];
         self.twist_rad = step.lock_release.decayed(self.twist_rad);
     }
 
@@ -189,7 +203,10 @@ impl FootLock {
         if self.planted {
             return -height_m;
         }
-        let clearance_m = CLEARANCE_M * (1.0 - contact_ahead) * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
+        let [slow_mps, quick_mps] = CLEARANCE_SPEEDS_MPS;
+        let quickness = ((self.speed_mps - slow_mps) / (quick_mps - slow_mps)).clamp(0.0, 1.0);
+        let whole_m = CLEARANCES_M[0] + quickness * (CLEARANCES_M[1] - CLEARANCES_M[0]);
+        let clearance_m = whole_m * (1.0 - contact_ahead) * (self.speed_mps / LIFTED_SPEED_MPS).min(1.0);
         CLEARANCE_SOFTNESS_M * soft_maximum((clearance_m - height_m) / CLEARANCE_SOFTNESS_M)
     }
 }

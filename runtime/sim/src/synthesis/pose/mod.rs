@@ -2,7 +2,7 @@
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_lock`, all held by
+//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`, all held by
 //! `contact_state`; `look_at` turns head and chest.
 
 pub(crate) mod contact_state;
@@ -10,6 +10,7 @@ pub(crate) mod foot_lock;
 pub(crate) mod heel_rise;
 pub(crate) mod ik;
 pub(crate) mod leg;
+pub(crate) mod leg_clearance;
 pub(crate) mod look_at;
 pub(crate) mod pelvis;
 pub(crate) mod posture;

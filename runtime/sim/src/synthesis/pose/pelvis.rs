@@ -10,9 +10,11 @@
 //!
 //! - *Deformed walk*: the pelvis keeps its height above the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
 //!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by a share of it.
-//! - *Locked feet*: the pelvis only drops. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the
+//! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the
 //!   pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of both
-//!   legs'. The pelvis drops at once and rises slowly ([`PelvisDrop`]).
+//!   legs'.
+//! - *Over time*: the pelvis drops and rises at limited accelerations ([`PelvisDrop`]). A foot that leaves the
+//!   ground far behind needs no drop from one moment to the next.
 //!
 //! Root frame (x forward, y left, z up), metres.
 
@@ -32,26 +34,56 @@ const EXTENSION_MAX: f32 = 0.9985;
 pub(crate) const DROP_MAX_M: f32 = 0.12;
 /// Softness s for locked feet, m: less than the hips bob in walking. At 0.01 m knees snap at stops.
 pub(crate) const SOFTNESS_M: f32 = 0.014;
+/// Greatest upward acceleration that the pelvis has from the end of a drop, m/s². With that of walking, 4 m/s², it stays
+/// well below a lurch.
+const RISE_MPS2: f32 = 8.0;
+/// Greatest downward acceleration from a drop that begins, m/s², as long as the pelvis is at most [`LATE_MAX_M`] late.
+const DROP_MPS2: f32 = 10.0;
+/// Acceleration at which the pelvis meets the needed drop, m/s²: less, because the motion itself may turn meanwhile.
+const MEETING_MPS2: f32 = 4.0;
+/// Height by which the pelvis may be above the needed drop, m: what straight legs still have beyond [`EXTENSION`].
+const LATE_MAX_M: f32 = 0.006;
 /// Share of a negative D by which the pelvis rises in a deformed walk. At 1, short strides would lift the pelvis higher
 /// at foot strike than at mid-stance.
 const RISE_SHARE: f32 = 0.45;
 /// Softness for deformed walks, m: what a knee flexed by 15° lacks until its leg is straight.
 const DEFORMED_SOFTNESS_M: f32 = 0.006;
 
-/// Drop of the pelvis for locked feet: the drop, m, its rate of change, m/s, and its acceleration, m/s².
+/// Drop of the pelvis of a body over time. It follows the drop that the pose has and the legs need at limited
+/// accelerations, in either direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct PelvisDrop([f32; 3]);
+pub(crate) struct PelvisDrop {
+    /// Drop beyond the needed one, m; negative where the pelvis is late.
+    lag_m: f32,
+    /// Rate of change of the whole drop, m/s.
+    rate_mps: f32,
+    /// Needed drop, m.
+    needed_m: f32,
+    /// Rate of change of the needed drop, m/s.
+    needed_mps: f32,
+}
 
 impl PelvisDrop {
-    /// The drop after a step in which the legs require `required_m`: at least that, m.
-    pub(crate) fn follow(&mut self, required_m: f32, step: &TimeStep) -> f32 {
-        let [before_m, ..] = self.0;
-        self.0 = match step.pelvis_rise.decayed(self.0) {
-            rising @ [rising_m, ..] if rising_m > required_m => rising,
-            _ => [required_m, (required_m - before_m) / step.dt_s, 0.0],
-        };
-        self.0[0]
+    /// The drop after a step in which `needed_m` is needed, m. In the first step after a switch (`is_new_motion`) the
+    /// needed drop jumps with the pose, and inertialization carries the jump.
+    pub(crate) fn follow(&mut self, needed_m: f32, is_new_motion: bool, step: &TimeStep) -> f32 {
+        if !is_new_motion {
+            self.needed_mps = (needed_m - self.needed_m) / step.dt_s;
+        }
+        let (least_mps, greatest_mps) = (self.rate_mps - RISE_MPS2 * step.dt_s, self.rate_mps + DROP_MPS2 * step.dt_s);
+        let rate_mps = (self.needed_mps - meeting_mps(self.lag_m, step.dt_s)).clamp(least_mps, greatest_mps);
+        let lag_m = (self.lag_m + step.dt_s * (rate_mps - self.needed_mps)).max(-LATE_MAX_M);
+        self.rate_mps = self.needed_mps + (lag_m - self.lag_m) / step.dt_s;
+        (self.lag_m, self.needed_m) = (lag_m, needed_m);
+        needed_m + lag_m
     }
+}
+
+/// The greatest speed at which a lag can shrink and still end without a bump, in whole steps, m/s.
+fn meeting_mps(lag_m: f32, dt_s: f32) -> f32 {
+    let half_step_mps = 0.5 * MEETING_MPS2 * dt_s;
+    let size_mps = libm::sqrtf(2.0 * MEETING_MPS2 * lag_m.abs() + half_step_mps * half_step_mps) - half_step_mps;
+    size_mps.min(lag_m.abs() / dt_s).copysign(lag_m)
 }
 
 /// D: drop of the pelvis where the feet are at the targets of a deformed walk, m; negative where the pelvis rises.
@@ -171,11 +203,21 @@ mod tests {
         let step = TimeStep::new(1.0 / 120.0);
         let mut drop = PelvisDrop::default();
         let required_m = (0..120).map(|step| if (30..60).contains(&step) { 0.002 * (step - 30) as f32 } else { 0.0 });
-        let drops_m: Vec<f32> = required_m.clone().map(|required_m| drop.follow(required_m, &step)).collect();
-        assert!(required_m.zip(&drops_m).all(|(required_m, &drop_m)| drop_m >= required_m));
+        let drops_m: Vec<f32> = required_m.clone().map(|required_m| drop.follow(required_m, false, &step)).collect();
+        assert!(required_m.zip(&drops_m).all(|(required_m, &drop_m)| drop_m >= required_m - LATE_MAX_M));
         let rising = drops_m[59..].windows(3);
         let accelerations_mps2 = rising.map(|three| (three[0] - 2.0 * three[1] + three[2]).abs() * 120.0 * 120.0);
-        assert!(accelerations_mps2.fold(0.0, f32::max) < 12.0 && drops_m[119] < 1e-3);
+        assert!(accelerations_mps2.fold(0.0, f32::max) < 1.1 * RISE_MPS2 && drops_m[119] < 1e-3);
+    }
+
+    #[test]
+    fn the_pelvis_keeps_its_lag_where_the_motion_changes() {
+        let step = TimeStep::new(1.0 / 120.0);
+        let mut drop = PelvisDrop::default();
+        let mut lags_m = (0..30).map(|step| if step < 15 { 0.05 } else { 0.0 }).collect::<Vec<f32>>();
+        lags_m.iter_mut().for_each(|needed_m| *needed_m = drop.follow(*needed_m, false, &step) - *needed_m);
+        let lag_m = drop.follow(0.03, true, &step) - 0.03;
+        assert!(lag_m > 0.01 && (lag_m - (2.0 * lags_m[29] - lags_m[28])).abs() < 1e-3, "{lag_m} {lags_m:?}");
     }
 
     #[test]

@@ -20,13 +20,15 @@ pub struct Posture {
     pub feet: [FootPose; 2],
     /// Contact of each foot with the ground, 0 to 1.
     pub contacts: [f32; 2],
+    /// Drop of the pelvis so far, m; negative where it has risen.
+    lowered_m: f32,
 }
 
 impl Posture {
     /// A pose whose feet are at their targets.
     pub fn new(pose: Pose, contacts: [f32; 2], skeleton: &Skeleton) -> Self {
         let legs = legs(&pose, skeleton);
-        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts }
+        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts, lowered_m: 0.0 }
     }
 
     /// Takes the feet of the pose as targets, after a change of the pose.
@@ -44,14 +46,16 @@ impl Posture {
         self.feet = feet;
     }
 
-    /// Moves the targets to those of foot locks. `pelvis_drop` receives the drop of the pelvis that the legs require,
-    /// m, and returns the drop that it makes.
+    /// Moves the targets to those of foot locks. `pelvis_drop` receives the whole drop of the pelvis that the pose has
+    /// and the legs require, m, and returns the drop that it makes.
     pub fn lock_feet(&mut self, feet: [FootPose; 2], pelvis_drop: impl FnOnce(f32) -> f32) {
-        self.lower(pelvis_drop(pelvis::locked_drop_m(&self.legs, &self.feet, &feet)));
+        let needed_m = self.lowered_m + pelvis::locked_drop_m(&self.legs, &self.feet, &feet);
+        self.lower(pelvis_drop(needed_m) - self.lowered_m);
         self.feet = feet;
     }
 
     fn lower(&mut self, drop_m: f32) {
+        self.lowered_m += drop_m;
         self.pose.pelvis_m.z -= drop_m;
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
     }

@@ -89,12 +89,13 @@ struct Instant {
 impl<'a> Deformation<'a> {
     /// m_sp at parameters that [`BaseWalk::reachable`] leaves unchanged.
     pub fn new(base: &'a BaseWalk, parameters: Parameters) -> Self {
-        Self::travelling(base, parameters, travel_direction(parameters, Vec2::X))
+        Self::travelling(base, parameters, travel_direction(parameters, Vec2::X), 1.0)
     }
 
-    /// m_sp of a body whose gait travels in another direction than its root, because it turns about.
-    pub fn travelling(base: &'a BaseWalk, parameters: Parameters, travel: Vec2) -> Self {
-        let tempo = Tempo::new(base, parameters, travel);
+    /// m_sp of a body whose gait travels in another direction than its root, because it turns about; its cadence is
+    /// `quickness` times that of other bodies.
+    pub fn travelling(base: &'a BaseWalk, parameters: Parameters, travel: Vec2, quickness: f32) -> Self {
+        let tempo = Tempo::new(base, parameters, travel, quickness);
         let travel_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps).length();
         // Greatest turn and side displacement of the root between the landings of both feet.
         let turn_apart_rad = base.carried_apart_s * soft_size(parameters.turn_rate_rad_s) / tempo.cadence;
@@ -271,12 +272,12 @@ impl<'a> Deformation<'a> {
 }
 
 impl<'a> Tempo<'a> {
-    /// The timing of m_sp at some parameters.
-    pub(crate) fn new(base: &'a BaseWalk, parameters: Parameters, travel: Vec2) -> Self {
+    /// The timing of m_sp at some parameters, at `quickness` times its cadence there.
+    pub(crate) fn new(base: &'a BaseWalk, parameters: Parameters, travel: Vec2, quickness: f32) -> Self {
         // The spring of the travel may overshoot.
         let travel = travel.clamp_length_max(1.0);
         let time_weights = [0.5 + 0.5 * travel.x, 0.5 - 0.5 * travel.x];
-        Self { base, cadence: base.cadence(parameters), travel, time_weights }
+        Self { base, cadence: quickness * base.cadence(parameters), travel, time_weights }
     }
 
     /// Phase to time; reversed time exchanges the half-strides.

@@ -1,0 +1,130 @@
+//! Step timing: a slow body takes its steps in natural time, and rests between them on both feet.
+//!
+//! Slow steps would play in slow motion: examples at a low rate ([`crate::synthesis::command::step_state`]), or a base walk
+//! at a low cadence. In people the swing of short steps takes no longer than that of a walk (captures: .3 to .4 s at 15 to
+//! 60 cm), and both feet stand meanwhile. So the phase runs quickly while a foot swings, and waits while both are planted.
+//!
+//! The root moves evenly, as the planner expects; the body moves in steps. It is drawn where the root is a lead of time ℓ
+//! later or earlier on its present arc, so planted feet hold. With the pace g, the phase rate over its mean φ',
+//!
+//! ```text
+//! ℓ' = g − 1
+//! g = q              while a foot swings
+//! g = R/(R + ℓ + G/2)  while both feet stand: over R, the time that this still takes at pace 1, ℓ falls to −G/2
+//! G = (1 − 1/q)·T      lead that a swing of duration T at pace 1 gains.
+//! ```
+//!
+//! Seconds; phases as in [`crate::synthesis`].
+
+use crate::synthesis::TimeStep;
+
+/// Distance in phase from mid-stance within which the other foot swings.
+const SWING_HALF: f32 = 0.19;
+/// Duration of the swing of a short step, divided by that in the base walk.
+const SHORT_SWING: f32 = 0.8;
+/// Phase rates, divided by that of the base walk, at which steps are short, and from which on they keep their timing.
+const SHORT_STEPS: [f32; 2] = [0.75, 1.0];
+/// Greatest pace of a swing.
+const PACE_MAX: f32 = 6.0;
+/// Range of the pace while both feet stand.
+const RESTING_PACE: [f32; 2] = [0.02, 2.0];
+
+/// The timing of a body's steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StepTiming {
+    /// g, the phase rate divided by its mean.
+    pub(crate) pace: f32,
+    /// ℓ, the time by which the body is ahead of its root, s.
+    pub(crate) lead_s: f32,
+}
+
+impl Default for StepTiming {
+    fn default() -> Self {
+        Self { pace: 1.0, lead_s: 0.0 }
+    }
+}
+
+impl StepTiming {
+    /// Follows a gait at a phase, whose mean phase rate is `mean_hz`; that of the base walk is `base_hz`.
+    pub(crate) fn follow(&mut self, phase: f32, mean_hz: f32, base_hz: f32, step: &TimeStep) {
+        let swing_pace = swing_pace(mean_hz / base_hz);
+        if swing_pace == 1.0 && *self == Self::default() {
+            return;
+        }
+        // Phase since the nearest mid-stance.
+        let since = phase - 0.5 * (2.0 * phase).round();
+        let pace = if since.abs() < SWING_HALF {
+            swing_pace
+        } else {
+            let gained_s = (1.0 - 1.0 / swing_pace) * 2.0 * SWING_HALF / mean_hz;
+            let left_s = (-SWING_HALF - since).rem_euclid(0.5) / mean_hz;
+            let [least, greatest] = RESTING_PACE;
+            let until_s = (left_s + self.lead_s + 0.5 * gained_s).max(f32::MIN_POSITIVE);
+            (left_s / until_s).clamp(least, greatest)
+        };
+        self.pace = pace + step.pace_left * (self.pace - pace);
+        self.lead_s += (self.pace - 1.0) * step.dt_s;
+        let is_over = |off: f32| off.abs() < 1e-3;
+        if swing_pace == 1.0 && is_over(self.pace - 1.0) && is_over(self.lead_s) {
+            *self = Self::default();
+        }
+    }
+}
+
+/// q of a gait, given its phase rate divided by that of the base walk.
+fn swing_pace(rate: f32) -> f32 {
+    let [short, long] = SHORT_STEPS;
+    let shortness = ((long - rate) / (long - short)).clamp(0.0, 1.0);
+    1.0 + shortness * ((1.0 / (SHORT_SWING * rate)).min(PACE_MAX) - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Durations of the swings and of whole strides of a gait, and the range of its lead after some strides, s.
+    fn timing(mean_hz: f32, dt_s: f32) -> (f32, f32, [f32; 2]) {
+        let (mut timing, mut phase, step) = (StepTiming::default(), 0.3_f32, TimeStep::new(dt_s));
+        let (mut swing_s, mut all_s, mut strides, mut leads_s) = (0.0, 0.0, 0.0, [f32::MAX, f32::MIN]);
+        for index in 0..(60.0 / dt_s) as usize {
+            timing.follow(phase, mean_hz, 0.83, &step);
+            let swings = (phase - 0.5 * (2.0 * phase).round()).abs() < SWING_HALF;
+            phase += dt_s * mean_hz * timing.pace;
+            if index as f32 * dt_s > 20.0 {
+                all_s += dt_s;
+                strides += dt_s * mean_hz * timing.pace;
+                swing_s += if swings { dt_s } else { 0.0 };
+                leads_s = [leads_s[0].min(timing.lead_s), leads_s[1].max(timing.lead_s)];
+            }
+            phase -= phase.floor();
+        }
+        (swing_s / (2.0 * strides), all_s / strides, leads_s)
+    }
+
+    #[test]
+    fn slow_steps_swing_in_natural_time() {
+        for (mean_hz, dt_s) in [(0.2, 1.0 / 60.0), (0.4, 1.0 / 60.0), (0.6, 1.0 / 60.0), (0.3, 1.0 / 30.0)] {
+            let (swing_s, stride_s, [least_s, greatest_s]) = timing(mean_hz, dt_s);
+            assert!((0.32..0.44).contains(&swing_s), "{mean_hz} Hz: {swing_s} s");
+            assert!((stride_s * mean_hz - 1.0).abs() < 0.03, "{mean_hz} Hz: a stride takes {stride_s} s");
+            assert!((least_s + greatest_s).abs() < 0.1 * (greatest_s - least_s) + 0.05, "{least_s} to {greatest_s} s");
+        }
+    }
+
+    #[test]
+    fn a_walk_keeps_its_timing() {
+        let (_, stride_s, leads_s) = timing(0.83, 1.0 / 60.0);
+        assert_eq!(leads_s, [0.0; 2]);
+        assert!((stride_s * 0.83 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_lead_is_made_up_where_the_body_walks_on() {
+        let (mut timing, step, mut phase) = (StepTiming { pace: 3.0, lead_s: 0.4 }, TimeStep::new(1.0 / 60.0), 0.1_f32);
+        for _ in 0..300 {
+            timing.follow(phase, 0.9, 0.83, &step);
+            phase = (phase + timing.pace * 0.9 / 60.0).fract();
+        }
+        assert_eq!(timing, StepTiming::default());
+    }
+}
