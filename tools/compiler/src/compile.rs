@@ -155,9 +155,10 @@ impl TargetedClips {
         self.clips.par_iter().map(ComparedClip::of).collect()
     }
 
-    /// The analysis of each clip, its windows reduced to the best. The clips have no frames afterwards.
+    /// The analysis of each clip, its windows reduced to the best. The clips have no frames afterwards, and of the poses
+    /// on the target body only those of rests and movements are left.
     pub(crate) fn analyzed(&mut self) -> Vec<AnalyzedClip> {
-        self.clips.par_iter_mut().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body))).collect()
+        self.clips.par_iter_mut().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body)).keep_needed()).collect()
     }
 
     /// Drops the windows of which another clip has a better copy.

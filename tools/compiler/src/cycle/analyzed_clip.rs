@@ -11,11 +11,13 @@ use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
 
 use crate::cycle::flaws::standing_flaws;
-use crate::cycle::mean_stride::mean_stride;
+use crate::cycle::mean_stride::{frames_beside, mean_stride};
 use crate::cycle::steady_cycle::SteadyCycle;
 use crate::gait::foot_stance::FootStance;
+use crate::gait::movements::{Movement, MovementKind, frames_beside_cut, movements};
+use crate::gait::pauses::Pause;
 use crate::gait::performer_gait::PerformerGait;
-use crate::gait::windows::{GaitWindow, WindowGait, searched_frames};
+use crate::gait::windows::{GaitAnalysis, GaitWindow, WindowGait, searched_frames};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::posture::LowPart;
@@ -25,7 +27,7 @@ const LOW_PART_MIN_S: f64 = 0.5;
 
 /// A clip on the target body, and its steady windows that may become examples.
 pub(crate) struct AnalyzedClip {
-    /// The clip on the target body.
+    /// The clip on the target body; after [`Self::keep_needed`] some of its poses.
     pub(crate) grounded: GroundedClip<'static>,
     /// Number of frames of the clip, one round of a loop.
     pub(crate) frame_count: usize,
@@ -35,8 +37,8 @@ pub(crate) struct AnalyzedClip {
     pub(crate) rests: Vec<Range<usize>>,
     /// Stances of each foot, `[left, right]`.
     pub(crate) stances: [Vec<FootStance>; 2],
-    /// First and last frame of each part in which the body steps steadily; of a loop counted in one round.
-    pub(crate) steady_parts: Vec<[f64; 2]>,
+    /// Where transitions may lie, in order of time; of a loop within its middle round.
+    pub(crate) movements: Vec<Movement>,
     /// Diagnostics of the clip as a whole.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Steady windows that give no example beside others.
@@ -91,23 +93,39 @@ impl AnalyzedClip {
             .filter(|window| window.stepping().is_none())
             .for_each(|window| window.flaws += standing_flaws);
         let stances = performer.gait.clearest_stances().clone();
-        let steady_parts = performer.gait.steady_parts();
+        let movements = clip_movements(clip, &performer.gait, &grounded);
         let rests = performer.gait.rests;
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
             let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, rests, stances, steady_parts, diagnostics, left_out };
+            return Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
         let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
         let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
-        Self { grounded, frame_count, windows, rests, stances, steady_parts, diagnostics, left_out }
+        Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out }
     }
 
     /// The frames in which something is searched: all, or the middle round of a loop.
     pub(crate) fn searched_frames(&self) -> Range<usize> {
         searched_frames(self.grounded.frame_count(), self.grounded.loop_frames())
+    }
+
+    /// Frees the poses that no standing cycle, no idle and no transition needs.
+    pub(crate) fn keep_needed(mut self) -> Self {
+        let stands = self.windows.iter().filter_map(SteadyCycle::standing);
+        // Rests give idles only where a window stands.
+        let rests = self.rests.iter().filter(|_| self.windows.iter().any(|window| window.standing().is_some()));
+        // The cycle of a rest is at most as long as the rest.
+        let with_margin = |frames: &Range<usize>| beside(frames.clone(), frames_beside(frames.len()));
+        let moves = self.movements.iter().map(|movement| {
+            let [first, last] = movement.frames();
+            beside(first as usize..last as usize + 2, frames_beside_cut(self.grounded.frame_rate_hz))
+        });
+        let needed = stands.chain(rests).map(with_margin).chain(moves).collect();
+        self.grounded.keep_frames(needed);
+        self
     }
 
     /// Duration from the first frame to the last, s.
@@ -136,6 +154,37 @@ impl LeftOutWindows {
         let [near_equal, doubtful] = [self.near_equal, self.doubtful].map(|count| count as u32);
         (near_equal + doubtful > 0).then_some(Note::WindowsLeftOut { near_equal, doubtful })
     }
+}
+
+/// Frames and so many before and after them.
+fn beside(frames: Range<usize>, margin: usize) -> Range<usize> {
+    frames.start.saturating_sub(margin)..frames.end + margin
+}
+
+/// The movements of a clip that may be transitions: the body is upright, and they are of the kind that a manifest states.
+fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip) -> Vec<Movement> {
+    if clip.unfit.is_some() {
+        return Vec::new();
+    }
+    let frames = searched_frames(grounded.frame_count(), grounded.loop_frames());
+    let before = grounded.loop_frames().unwrap_or(0) as f64;
+    let (stated, steady_parts) = (clip.choices.transition, gait.steady_parts());
+    // A body that side-steps slowly stands for a moment in each stride.
+    let is_in_strides = |pause: &&Pause| {
+        let middle = 0.5 * (pause.frames.start + pause.frames.end - 1) as f64 - before;
+        stated.is_none() && steady_parts.iter().any(|[first, last]| (*first..=*last).contains(&middle))
+    };
+    let pauses: Vec<Pause> = gait.pauses.iter().filter(|pause| !is_in_strides(pause)).cloned().collect();
+    let mut found = movements(&pauses, &gait.strikes, grounded.frame_rate_hz, &frames);
+    let is_low = |movement: &Movement| {
+        let [first, last] = movement.frames();
+        let is_part =
+            |part: &LowPart| first - before < part.frames.end as f64 && part.frames.start as f64 <= last - before;
+        clip.left_out_parts().iter().any(is_part)
+    };
+    let is_stated = |movement: &Movement| stated.is_none_or(|kind| MovementKind::of(kind) == movement.kind);
+    found.retain(|movement| is_stated(movement) && !is_low(movement));
+    found
 }
 
 /// The reason that the body is not upright for most of a clip, if it is so.
@@ -201,6 +250,40 @@ fn steady_cycle(
         WindowGait::Steps(strides) => {
             let cycle = mean_stride(grounded, body, stances, strides);
             SteadyCycle::of_strides(cycle, strides, body, growth, window_s)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::action::idle_loop::idle_loop;
+    use crate::cycle::standing_cycle::standing_cycle;
+    use crate::retarget::human_clip::HumanPose;
+    use crate::synthetic::{SyntheticWalk, idle, performance, walk};
+
+    #[test]
+    fn rests_and_movements_are_alike_without_the_other_poses() {
+        let long = walk("part", SyntheticWalk { duration_s: 12.0, ..SyntheticWalk::default() });
+        let parts = [long.clone(), idle("part", 3.0), long];
+        for mut clip in [performance("capture", &parts), idle("idle", 2.0)] {
+            let body = clip.body.clone();
+            let analyzed = AnalyzedClip::of(&mut clip, &body);
+            let rest = analyzed.windows.iter().find_map(SteadyCycle::standing).cloned().unwrap();
+            let cycle = |clip: &GroundedClip| standing_cycle(clip, &body, rest.clone(), 1.1).rows;
+            let idles = |found: &AnalyzedClip| -> Vec<Vec<HumanPose>> {
+                found.rests.iter().map(|rest| idle_loop(&found.grounded, &body, rest).poses).collect()
+            };
+            let cuts = |found: &AnalyzedClip| -> Vec<HumanPose> {
+                let ends = found.movements.iter().flat_map(|movement| movement.cuts.iter().flatten());
+                ends.map(|&frame| found.grounded.pose_at(frame, &body)).collect()
+            };
+            let all = |found: &AnalyzedClip| (cycle(&found.grounded), idles(found), cuts(found));
+            let whole = all(&analyzed);
+            let count = analyzed.grounded.frame_count();
+            let kept = analyzed.keep_needed();
+            assert_eq!(all(&kept), whole);
+            assert_eq!(kept.grounded.frame_count(), count);
         }
     }
 }

@@ -23,6 +23,8 @@ use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// Rows over which each end of a stride fades, where the clip reaches that far: an eighth of a cycle.
 const FADE_ROWS: usize = PHASE_COUNT / 8;
+/// Number of frames beside a fractional frame that interpolation reads.
+const INTERPOLATED_FRAMES: usize = 3;
 /// Duration in which the contact of a foot goes from 0 to 1, s: one frame of the slowest clips.
 const CONTACT_RAMP_S: f64 = 1.0 / 30.0;
 /// Greatest depth in a stance that counts, s: deeper inside, the other end of the stance does not matter.
@@ -56,6 +58,11 @@ pub fn mean_stride(
     lower_to_mean_ground(&mut cycle, body);
     foot_grounding::keep_soles_above_ground(&mut cycle.rows, body);
     cycle
+}
+
+/// Greatest number of frames before and after a stride of so many frames that its mean reads.
+pub(crate) fn frames_beside(period_frames: usize) -> usize {
+    (period_frames * FADE_ROWS).div_ceil(PHASE_COUNT) + INTERPOLATED_FRAMES
 }
 
 /// Contact of a foot at a depth in a stance (s): ½ at the end of the stance.

@@ -106,6 +106,14 @@ impl SteadyCycle {
         }
     }
 
+    /// The frames in which the body stands.
+    pub(crate) fn standing(&self) -> Option<&Range<usize>> {
+        match &self.motion {
+            SteadyMotion::Steps(_) => None,
+            SteadyMotion::Stands(frames) => Some(frames),
+        }
+    }
+
     /// Constant rates of the root.
     pub(crate) fn rates(&self) -> Rates {
         self.stepping().map_or_else(Rates::default, |cycle| cycle.rates)

@@ -6,12 +6,14 @@
 //!
 //! Read `performer_gait` (the chapter's entry) and `windows` (its steps), then the steps one by one: `contacts`,
 //! `foot_stance` with `contact_ends`, `stride` on a `body_track`, `steady_strides` with `stride_spread`,
-//! `stride_alignment`, `standing`, `unsteady_strides`.
+//! `stride_alignment`, `standing`, `unsteady_strides`; then `pauses` and `movements`, where transitions may lie.
 
 pub(crate) mod body_track;
 pub(crate) mod contact_ends;
 pub(crate) mod contacts;
 pub(crate) mod foot_stance;
+pub(crate) mod movements;
+pub(crate) mod pauses;
 pub(crate) mod performer_gait;
 pub(crate) mod standing;
 pub(crate) mod steady_strides;

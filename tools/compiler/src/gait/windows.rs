@@ -16,6 +16,8 @@ use crate::frame_runs::frame_runs;
 use crate::gait::body_track::BodyTrack;
 use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
+use crate::gait::movements::{Strike, strikes};
+use crate::gait::pauses::{Pause, pauses};
 use crate::gait::standing;
 use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows};
 use crate::gait::stride::{Landmark, Stride, valid_stride};
@@ -62,6 +64,10 @@ pub struct GaitAnalysis {
     pub windows: Result<Vec<GaitWindow>, Unfit>,
     /// Frames in which the body stands, in order of time; of a loop within its middle round.
     pub rests: Vec<Range<usize>>,
+    /// Where the body stands, if only for a moment, in order of time; of a loop within its middle round.
+    pub(crate) pauses: Vec<Pause>,
+    /// Touches of the ground, in order of time; of a loop within its middle round.
+    pub(crate) strikes: Vec<Strike>,
     /// Why no window steps although the body makes steps; only of a clip whose windows all stand.
     pub lost_steps: Option<Unfit>,
 }
@@ -92,7 +98,10 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());
     let lost_steps = lost_steps(&windows, &steps[0], &frames);
-    GaitAnalysis { stances, windows, rests, lost_steps }
+    let mut found = GaitAnalysis { stances, windows, rests, pauses: Vec::new(), strikes: Vec::new(), lost_steps };
+    found.pauses = pauses(&track, found.clearest_stances(), &frames);
+    found.strikes = strikes(found.clearest_stances(), &track, &frames);
+    found
 }
 
 /// Frames of a clip of which no window is made.

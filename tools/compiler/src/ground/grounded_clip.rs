@@ -3,6 +3,8 @@
 //! Poses that differ from those of the imported clip by their position alone are not stored again, nor are the rounds of
 //! a loop: an hour of capture takes a tenth of a gigabyte. World frame: metres, radians, Z up.
 
+use std::ops::Range;
+
 use crate::ground::grounded_poses::GroundedPoses;
 use crate::ground::loop_rounds::LoopRounds;
 use crate::ground::pose_mean::pose_between;
@@ -28,6 +30,26 @@ impl GroundedClip<'_> {
     /// Frames of one round of a clip that is a loop. Frames `loop_frames..2·loop_frames` are the middle round.
     pub fn loop_frames(&self) -> Option<usize> {
         self.rounds.as_ref().map(|rounds| rounds.round)
+    }
+
+    /// Frees the poses outside some ranges of frames, in any order; none of them may be read afterwards. A loop keeps its
+    /// round where a range holds any frame.
+    pub(crate) fn keep_frames(&mut self, mut ranges: Vec<Range<usize>>) {
+        let count = self.poses.len();
+        if self.rounds.is_some() && !ranges.is_empty() {
+            ranges.clear();
+            ranges.push(0..count);
+        }
+        ranges.sort_by_key(|range| range.start);
+        let mut disjoint: Vec<Range<usize>> = Vec::new();
+        for range in ranges.into_iter().map(|range| range.start.min(count)..range.end.min(count)) {
+            match disjoint.last_mut() {
+                Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+                _ => disjoint.push(range),
+            }
+        }
+        disjoint.retain(|range| !range.is_empty());
+        self.poses.keep(&disjoint);
     }
 
     /// The pose of a frame in the world.

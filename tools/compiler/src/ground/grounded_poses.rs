@@ -1,5 +1,7 @@
 //! Poses of successive frames in the world: their own, or those of another clip at other positions. Metres.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::retarget::human_clip::HumanPose;
@@ -15,6 +17,17 @@ pub(crate) enum GroundedPoses<'a> {
         /// World position of the pelvis in each frame, m.
         pelvis_m: Vec<DVec3>,
     },
+    /// Some poses of a clip; the others are freed.
+    Parts(PartsOfPoses),
+}
+
+/// Some poses of a clip, with the frame numbers of the whole.
+#[derive(Clone, Debug)]
+pub(crate) struct PartsOfPoses {
+    /// Number of frames of the whole.
+    count: usize,
+    /// First frame of each part, and its poses, in order of time.
+    parts: Vec<(usize, Vec<HumanPose>)>,
 }
 
 impl GroundedPoses<'_> {
@@ -23,6 +36,7 @@ impl GroundedPoses<'_> {
         match self {
             Self::Own(poses) => poses.len(),
             Self::Moved { pelvis_m, .. } => pelvis_m.len(),
+            Self::Parts(kept) => kept.count,
         }
     }
 
@@ -33,15 +47,40 @@ impl GroundedPoses<'_> {
             Self::Moved { poses, pelvis_m } => {
                 HumanPose { pelvis_m: pelvis_m[frame], rotations: poses[frame].rotations }
             }
+            Self::Parts(kept) => kept.pose(frame),
         }
     }
 
-    /// Position of the pelvis in each frame, m.
+    /// Frees the poses outside some ranges of frames, which are in order and disjoint; none of them may be read afterwards.
+    /// Poses of another clip stay.
+    pub(crate) fn keep(&mut self, ranges: &[Range<usize>]) {
+        if let Self::Own(poses) = self {
+            let part = |range: &Range<usize>| (range.start, poses[range.clone()].to_vec());
+            *self = Self::Parts(PartsOfPoses { count: poses.len(), parts: ranges.iter().map(part).collect() });
+        }
+    }
+
+    /// Position of the pelvis in each frame that has a pose, m.
     pub(crate) fn pelvis_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
-        let (own, moved) = match self {
-            Self::Own(poses) => (&mut poses[..], &mut [][..]),
-            Self::Moved { pelvis_m, .. } => (&mut [][..], &mut pelvis_m[..]),
+        let (own, moved, parts) = match self {
+            Self::Own(poses) => (&mut poses[..], &mut [][..], &mut [][..]),
+            Self::Moved { pelvis_m, .. } => (&mut [][..], &mut pelvis_m[..], &mut [][..]),
+            Self::Parts(kept) => (&mut [][..], &mut [][..], &mut kept.parts[..]),
         };
-        own.iter_mut().map(|pose| &mut pose.pelvis_m).chain(moved)
+        let own = own.iter_mut().chain(parts.iter_mut().flat_map(|(_, poses)| poses));
+        own.map(|pose| &mut pose.pelvis_m).chain(moved)
+    }
+}
+
+impl PartsOfPoses {
+    /// The pose of a frame; of a frame that is freed the nearest one before it, else the first that is left.
+    ///
+    /// # Panics
+    /// If no pose is left.
+    fn pose(&self, frame: usize) -> HumanPose {
+        let part = self.parts.partition_point(|(first, _)| *first <= frame).saturating_sub(1);
+        let (first, poses) = &self.parts[part];
+        debug_assert!((*first..first + poses.len()).contains(&frame), "frame {frame} is freed");
+        poses[frame.saturating_sub(*first).min(poses.len() - 1)].clone()
     }
 }

@@ -1,15 +1,13 @@
 //! Transitions: starts, stops, turns, steps and pivots, found in the clips and joined to the examples of the set.
 //!
-//! Enters: the clips on the target body ([`AnalyzedClip`](crate::cycle::analyzed_clip::AnalyzedClip)) and the cycles that
-//! became examples. Leaves: [`JoinedAction`](crate::action::joined_action::JoinedAction)s by kind and name.
+//! Enters: the clips on the target body ([`AnalyzedClip`](crate::cycle::analyzed_clip::AnalyzedClip)) with their movements,
+//! and the cycles that became examples. Leaves: [`JoinedAction`](crate::action::joined_action::JoinedAction)s by kind and name.
 //!
-//! Read `transitions` (the chapter's steps), then `pauses`, `movements`, `joint_state` with `example_rows`, `root_path`,
-//! `recorded_transition`, `selection`.
+//! Read `transitions` (the chapter's steps), then `joint_state` with `example_rows`, `root_path`, `recorded_transition`,
+//! `selection`. Where transitions may lie in a clip, [`crate::gait`] finds.
 
 pub(crate) mod example_rows;
 pub(crate) mod joint_state;
-pub(crate) mod movements;
-pub(crate) mod pauses;
 pub(crate) mod recorded_transition;
 pub(crate) mod root_path;
 pub(crate) mod selection;

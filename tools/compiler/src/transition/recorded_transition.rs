@@ -14,13 +14,13 @@ use crate::action::joined_action::JoinedFrame;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::mean_stride::contact;
 use crate::gait::foot_stance::depth_s;
+use crate::gait::movements::{BESIDE_S, Movement, MovementKind, VELOCITY_SPAN_S};
 use crate::ground::root_arc::{Rates, relative_to};
 use crate::ground::rotations::ground_rotation;
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 use crate::select::mirror::mirrored_pose;
 use crate::transition::example_rows::{ExampleRows, RowMatch};
 use crate::transition::joint_state::{JointState, Placement};
-use crate::transition::movements::{Movement, MovementKind};
 use crate::transition::root_path::{PathEnd, root_path};
 
 /// Greatest distance of a pose at rest from that of the standing example, m.
@@ -33,10 +33,6 @@ const STRIKE_MAX_M: f64 = 0.15;
 const SHORTER_COUNTS: f64 = 1.25;
 /// Distance that counts as none beside others, m.
 const SAME_FIT_M: f64 = 0.005;
-/// Time outside of a cut at which the steps are compared again, s: a quarter of a stride.
-const BESIDE_S: f64 = 0.25;
-/// Half the span over which joint velocities are taken, s.
-const VELOCITY_SPAN_S: f64 = 1.0 / 30.0;
 /// Least turn of a turn on the spot and of a pivot, rad: 45°.
 const TURN_MIN_RAD: f64 = PI / 4.0;
 /// Greatest displacement of a turn on the spot, leg lengths.

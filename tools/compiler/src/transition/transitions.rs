@@ -1,11 +1,10 @@
 //! The transitions of a set.
 //!
 //! # Steps
-//! 1. In each clip find the pauses and the movements beside them.
-//! 2. Join each movement to the examples where it fits them best.
-//! 3. Of near-equal transitions keep the best.
-//! 4. Add the mirror images of those without a counterpart.
-//! 5. Name them: the clip's name and the kind, and the second of the file where a clip has several of a kind.
+//! 1. Join each movement of each clip to the examples where it fits them best.
+//! 2. Of near-equal transitions keep the best.
+//! 3. Add the mirror images of those without a counterpart.
+//! 4. Name them: the clip's name and the kind, and the second of the file where a clip has several of a kind.
 
 use motiondb::motion::ActionKind;
 use rayon::prelude::*;
@@ -13,12 +12,10 @@ use rayon::prelude::*;
 use crate::action::joined_action::{JoinedAction, best_standing};
 use crate::cycle::analyzed_clip::{AnalyzedClip, ClipTimes};
 use crate::error::CompileError;
-use crate::gait::body_track::BodyTrack;
+use crate::gait::movements::{Movement, MovementKind};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::named_cycles::{NamedCycle, window_name};
 use crate::transition::example_rows::ExampleRows;
-use crate::transition::movements::{Movement, MovementKind, movements, strikes};
-use crate::transition::pauses::{Pause, pauses};
 use crate::transition::recorded_transition::{RecordedTransition, TransitionClip, recorded_transition};
 use crate::transition::selection::{best_transitions, needs_mirror};
 
@@ -51,7 +48,7 @@ pub(crate) fn transitions(
             mirrored: true,
             stated: clips[found.source].choices.transition,
         };
-        let kind = movement_kind(found.kind);
+        let kind = MovementKind::of(found.kind);
         // The mirror image is cut where the original is.
         let movement = Movement { kind, cuts: vec![found.cut], is_cut: [false; 2] };
         recorded_transition(&clip, &movement, &rows, body)
@@ -75,57 +72,25 @@ fn unfulfilled<'a>(clips: &'a [HumanClip], found: &[Vec<RecordedTransition>]) ->
 fn of_clip(
     index: usize,
     clip: &HumanClip,
-    found: &AnalyzedClip,
+    analyzed: &AnalyzedClip,
     rows: &ExampleRows,
     body: &HumanBody,
 ) -> Vec<RecordedTransition> {
-    if clip.unfit.is_some() {
-        return Vec::new();
-    }
     let stated = clip.choices.transition;
-    let frames = found.searched_frames();
-    let before = found.grounded.loop_frames().unwrap_or(0) as f64;
-    let track = BodyTrack::of(&found.grounded, body, |_| ());
-    // A body that side-steps slowly stands for a moment in each stride.
-    let is_in_strides = |pause: &Pause| {
-        let middle = 0.5 * (pause.frames.start + pause.frames.end - 1) as f64 - before;
-        stated.is_none() && found.steady_parts.iter().any(|[first, last]| (*first..=*last).contains(&middle))
-    };
-    let mut pauses = pauses(&track, &found.stances, &frames);
-    pauses.retain(|pause| !is_in_strides(pause));
-    let movements = movements(&pauses, &strikes(&found.stances, &frames), &track, &frames);
-    let source = TransitionClip { index, found, mirrored: false, stated };
-    let is_low = |movement: &Movement| {
-        let [first, last] =
-            movement.cuts.iter().fold([f64::INFINITY, 0.0], |[a, b], cut| [cut[0].min(a), cut[1].max(b)]);
-        let parts = clip.left_out_parts().iter();
-        parts
-            .into_iter()
-            .any(|part| first - before < part.frames.end as f64 && part.frames.start as f64 <= last - before)
-    };
-    let is_stated = |movement: &Movement| stated.is_none_or(|kind| movement_kind(kind) == movement.kind);
-    let upright = movements.into_iter().filter(|movement| is_stated(movement) && !is_low(movement));
+    let source = TransitionClip { index, found: analyzed, mirrored: false, stated };
     let found: Vec<RecordedTransition> =
-        upright.filter_map(|movement| recorded_transition(&source, &movement, rows, body)).collect();
+        analyzed.movements.iter().filter_map(|movement| recorded_transition(&source, movement, rows, body)).collect();
     if let Some(kind) = stated {
         return found.into_iter().filter(|transition| transition.kind == kind).collect();
     }
     let is_within = |part: &RecordedTransition| {
-        let between = found.iter().filter(|other| movement_kind(other.kind) == MovementKind::Between);
+        let between = found.iter().filter(|other| MovementKind::of(other.kind) == MovementKind::Between);
         between.into_iter().any(|whole| whole.cut[0] <= part.cut[0] && part.cut[1] <= whole.cut[1])
     };
     // The first steps of a turn on the spot are no start.
-    let is_whole = |part: &&RecordedTransition| movement_kind(part.kind) == MovementKind::Between || !is_within(part);
+    let is_whole =
+        |part: &&RecordedTransition| MovementKind::of(part.kind) == MovementKind::Between || !is_within(part);
     found.iter().filter(is_whole).cloned().collect()
-}
-
-const fn movement_kind(kind: ActionKind) -> MovementKind {
-    match kind {
-        ActionKind::Start => MovementKind::Start,
-        ActionKind::Stop => MovementKind::Stop,
-        ActionKind::Idle | ActionKind::Turn | ActionKind::Step => MovementKind::Between,
-        ActionKind::Pivot => MovementKind::Pivot,
-    }
 }
 
 /// First and last second of a transition in its file.
