@@ -2,10 +2,10 @@
 //!
 //! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!
-//! Read [`mesh`] (free space as triangles) and [`field`] (shortest routes over it); then `crowd_routes` (the routes of
-//! all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path` (v_pref along
-//! waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and closed passages before a
-//! simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
+//! Read `polygons` (free space), [`mesh`] (its triangles) and [`field`] (shortest routes over it); then `crowd_routes`
+//! (the routes of all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path`
+//! (v_pref along waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and closed
+//! passages before a simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};
@@ -34,6 +34,7 @@ pub mod mesh;
 pub(crate) mod one_way_reach;
 pub(crate) mod params;
 pub(crate) mod path;
+pub(crate) mod polygons;
 pub(crate) mod reach;
 pub(crate) mod steering;
 

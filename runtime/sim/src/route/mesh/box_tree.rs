@@ -1,6 +1,6 @@
 //! Boxes around triangles, four to a box, level by level: finds the triangle at a point, and the one nearest to it.
 //!
-//! The triangles must be sorted so that neighbours in the list lie near each other ([`morton_code`]). A uniform grid
+//! The triangles must be sorted so that neighbours in the list lie near each other ([`morton_code`](crate::maths::morton::morton_code)). A uniform grid
 //! would be quick only where all triangles are of one size; open ground has a few that span the whole scene. World,
 //! metres.
 
@@ -105,33 +105,10 @@ impl BoxTree {
     }
 }
 
-/// Position along a Z-shaped curve that fills the plane: points with close codes lie near each other.
-pub(crate) fn morton_code(x: u32, y: u32) -> u64 {
-    let spread = |bits: u32| {
-        let mut bits = u64::from(bits);
-        for (shift, mask) in [
-            (16, 0x0000_ffff_0000_ffff),
-            (8, 0x00ff_00ff_00ff_00ff),
-            (4, 0x0f0f_0f0f_0f0f_0f0f),
-            (2, 0x3333_3333_3333_3333),
-            (1, 0x5555_5555_5555_5555),
-        ] {
-            bits = (bits | bits << shift) & mask;
-        }
-        bits
-    };
-    spread(x) | spread(y) << 1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::maths::random::SplitMix64;
-
-    #[test]
-    fn morton_codes_interleave_bits() {
-        assert_eq!([morton_code(0b11, 0), morton_code(0, 0b101), morton_code(u32::MAX, u32::MAX)], [5, 34, u64::MAX]);
-    }
 
     #[test]
     fn nearest_box_is_that_of_brute_force() {

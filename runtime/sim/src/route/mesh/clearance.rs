@@ -12,9 +12,9 @@
 use glam::DVec2;
 
 use crate::route::mesh::box_tree::BoxTree;
-use crate::route::mesh::grid::{LINES_PER_M, metres, rounded};
 use crate::route::mesh::route_mesh::{RouteMesh, side};
 use crate::route::mesh::triangulation::NONE;
+use crate::route::polygons::grid::{LINES_PER_M, metres, rounded};
 
 /// Share of a triangle's height that clearance leaves: a quarter of a narrow passage stays free.
 const LEAST_SHARE: f64 = 0.25;

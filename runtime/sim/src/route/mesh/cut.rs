@@ -13,12 +13,11 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::string::overlay::StringOverlay;
 use i_overlay::string::rule::StringRule;
 
-use crate::route::mesh::error::RouteError;
 use crate::route::mesh::gates::Gates;
-use crate::route::mesh::grid::{LINES_PER_M, grid_point, metres, rounded};
-use crate::route::mesh::outline::Contour;
 use crate::route::mesh::route_mesh::RouteMesh;
 use crate::route::mesh::triangulation::{CellSoup, NONE, triangulate_cells};
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::grid::{Contour, LINES_PER_M, grid_point, metres, rounded};
 use crate::world::one_way::OneWayZone;
 
 /// Cosine of the greatest angle between a gate's normal and the heading of its zone: edges of a millimetre, which the
@@ -172,7 +171,7 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
-    use crate::route::mesh::ground::{Ground, WalkablePolygon};
+    use crate::route::polygons::ground::{Ground, WalkablePolygon};
 
     fn rectangle(low: [f32; 2], high: [f32; 2]) -> Vec<Vec2> {
         [low, [high[0], low[1]], high, [low[0], high[1]]].map(Vec2::from).to_vec()

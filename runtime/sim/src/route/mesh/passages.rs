@@ -14,12 +14,12 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec2};
 
-use crate::route::mesh::error::RouteError;
-use crate::route::mesh::free_space::{FreeSpace, GRID_ALLOWANCE_M};
-use crate::route::mesh::ground::Ground;
 use crate::route::mesh::locate::nearest_on_edge;
 use crate::route::mesh::route_mesh::RouteMesh;
 use crate::route::mesh::triangulation::{NONE, triangulate};
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::free_space::{FreeSpace, GRID_ALLOWANCE_M};
+use crate::route::polygons::ground::Ground;
 use crate::world::obstacles::edge_grid::EdgeGrid;
 
 /// Least width of a gap that is reported, m: narrower ones are taken for walls that touch.

@@ -7,13 +7,14 @@
 use glam::{DVec2, Vec2};
 use robust::{Coord, orient2d};
 
-use crate::route::mesh::box_tree::{BoxTree, morton_code};
-use crate::route::mesh::error::RouteError;
-use crate::route::mesh::free_space::FreeSpace;
+use crate::maths::morton::morton_code;
+use crate::route::mesh::box_tree::BoxTree;
 use crate::route::mesh::gates::Gates;
-use crate::route::mesh::grid::LINES_PER_M;
-use crate::route::mesh::ground::Ground;
 use crate::route::mesh::triangulation::{NONE, TriangleSoup, triangulate};
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::free_space::FreeSpace;
+use crate::route::polygons::grid::LINES_PER_M;
+use crate::route::polygons::ground::Ground;
 
 /// The triangles of free space.
 #[derive(Clone, Debug, Default)]
@@ -313,7 +314,7 @@ mod tests {
 
     #[test]
     fn a_wall_across_a_room_makes_two_parts() {
-        let room = crate::route::mesh::ground::WalkablePolygon {
+        let room = crate::route::polygons::ground::WalkablePolygon {
             outline_m: polygon(&[[0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]]),
             holes_m: vec![polygon(&[[1.0, 1.0], [2.0, 1.0], [1.5, 2.0]])],
         };

@@ -7,7 +7,7 @@ use glam::DVec2;
 use spade::handles::{DirectedEdgeHandle, FixedFaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use crate::route::mesh::error::RouteError;
+use crate::route::polygons::error::RouteError;
 
 /// No triangle: the edge is a border.
 pub(crate) const NONE: u32 = u32::MAX;

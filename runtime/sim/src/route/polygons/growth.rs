@@ -9,9 +9,9 @@
 
 use glam::DVec2;
 
-use crate::route::mesh::grid::{GridPoint, lines, rounded, side};
-use crate::route::mesh::outline::{Contour, Outline};
-use crate::route::mesh::union::Shape;
+use crate::route::polygons::grid::{Contour, GridPoint, lines, rounded, side};
+use crate::route::polygons::outline::Outline;
+use crate::route::polygons::union::Shape;
 
 /// Cosine of the greatest turn of one segment of a fan, 45°, less rounding.
 const SEGMENT_COS: f64 = std::f64::consts::FRAC_1_SQRT_2 - 1e-9;
@@ -95,7 +95,7 @@ mod tests {
 
     use super::*;
     use crate::maths::polygon::{closest_distance_m, contains};
-    use crate::route::mesh::grid::metres;
+    use crate::route::polygons::grid::metres;
 
     #[test]
     fn grown_corners_keep_the_distance() {

@@ -13,9 +13,9 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use rayon::prelude::*;
 
-use crate::route::mesh::box_tree::morton_code;
-use crate::route::mesh::error::RouteError;
-use crate::route::mesh::outline::Contour;
+use crate::maths::morton::morton_code;
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::grid::Contour;
 
 /// Contours that belong together: outlines counter-clockwise, their holes clockwise.
 pub(crate) type Shape = Vec<Contour>;
@@ -106,7 +106,7 @@ fn place(shape: &Shape) -> u64 {
 mod tests {
     use super::*;
     use crate::maths::random::SplitMix64;
-    use crate::route::mesh::grid::{GridPoint, side};
+    use crate::route::polygons::grid::{GridPoint, side};
 
     /// Triangles in a heap.
     fn heap(count: usize) -> Vec<Shape> {

@@ -9,12 +9,9 @@
 
 use glam::Vec2;
 
-use crate::route::mesh::error::RouteError;
-use crate::route::mesh::grid::{GridPoint, grid_point, side};
-use crate::route::mesh::union::united;
-
-/// A closed polyline of grid points with the solid on its left.
-pub(crate) type Contour = Vec<GridPoint>;
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::grid::{Contour, GridPoint, grid_point, side};
+use crate::route::polygons::union::united;
 
 /// The outline of one obstacle.
 #[derive(Debug, Default)]

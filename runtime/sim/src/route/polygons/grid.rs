@@ -6,7 +6,7 @@
 use glam::{DVec2, Vec2};
 use i_overlay::i_float::int::point::IntPoint;
 
-use crate::route::mesh::error::RouteError;
+use crate::route::polygons::error::RouteError;
 
 /// Grid lines per metre.
 pub(crate) const LINES_PER_M: f64 = 1024.0;
@@ -15,6 +15,8 @@ const COORDINATE_MAX_M: f32 = 16_000.0;
 
 /// A point of the grid, in grid lines.
 pub(crate) type GridPoint = IntPoint<i32>;
+/// A closed polyline of grid points with the solid on its left.
+pub(crate) type Contour = Vec<GridPoint>;
 
 /// The grid point nearest to a point.
 ///

@@ -8,12 +8,12 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::route::mesh::error::RouteError;
-use crate::route::mesh::grid::{GridPoint, LINES_PER_M, grid_point, metres, rounded};
-use crate::route::mesh::ground::{Ground, WalkablePolygon};
-use crate::route::mesh::growth::{add_bands_and_fans, grow};
-use crate::route::mesh::outline::{Contour, Outline};
-use crate::route::mesh::union::{Shape, difference, few, shift_lines, united};
+use crate::route::polygons::error::RouteError;
+use crate::route::polygons::grid::{Contour, GridPoint, LINES_PER_M, grid_point, metres, rounded};
+use crate::route::polygons::ground::{Ground, WalkablePolygon};
+use crate::route::polygons::growth::{add_bands_and_fans, grow};
+use crate::route::polygons::outline::Outline;
+use crate::route::polygons::union::{Shape, difference, few, shift_lines, united};
 use crate::world::one_way::OneWayZone;
 
 /// Width of open ground beyond all obstacles and points, m: farther than a crowd pushes an agent outside.
