@@ -6,12 +6,11 @@ use glam::Vec3;
 use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
 
-use crate::maths::angle::{angle_between_rad, yaw};
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
-use crate::synthesis::pose::{ContactState, LookAt, Posture};
+use crate::synthesis::pose::{ContactState, FootMotion, LookAt, Posture};
 use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
@@ -47,10 +46,12 @@ impl Body {
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
         motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
-        let planted = [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]);
-        let contacts_ahead = contacts_ahead(&active, motion, context);
-        let is_new_motion = motion.has_jumped;
-        contact.lock_feet(&mut posture, planted, contacts_ahead, is_new_motion, &frame, skeleton, step);
+        let feet = FootMotion {
+            planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
+            contacts_ahead: contacts_ahead(&active, motion, context),
+            is_new: motion.has_jumped,
+        };
+        contact.lock_feet(&mut posture, &feet, &frame, skeleton, step);
         posture.bend_legs(skeleton);
         let soles_m = posture.soles_m(skeleton);
         contact.record_drawn(&soles_m, &frame, step);
@@ -93,7 +94,7 @@ fn contacts_ahead(active: &ActiveMotion, motion: &MotionState, context: &Synthes
     active.contacts(context, wrapped(motion.phase + LANDING_AHEAD_S * phase_rate_hz))
 }
 
-/// A pose and its soles, made in the frame of the drawn body, in the root frame.
+/// A pose and its soles, made in the frame of the drawn body, in the root frame: both face alike.
 fn in_root_frame(
     mut posture: Posture,
     soles_m: [[Vec3; 3]; 2],
@@ -103,11 +104,10 @@ fn in_root_frame(
     if drawn == root {
         return (posture, soles_m);
     }
-    let moved = |point_m: Vec3| root.to_local(drawn.to_world(point_m));
-    posture.pose.pelvis_m = moved(posture.pose.pelvis_m);
-    let turned_rad = angle_between_rad(root.forward, drawn.forward);
-    posture.pose.rotations[0] = yaw(turned_rad) * posture.pose.rotations[0];
-    (posture, soles_m.map(|sole_m| sole_m.map(moved)))
+    let in_root_frame = |point_m: Vec3| root.to_local(drawn.to_world(point_m));
+    let pelvis_m = &mut posture.pose.pelvis_m;
+    *pelvis_m = in_root_frame(*pelvis_m);
+    (posture, soles_m.map(|sole_m| sole_m.map(in_root_frame)))
 }
 
 /// The output for a posture and its soles in the root frame, at a phase and a pace.

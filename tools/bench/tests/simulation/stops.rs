@@ -227,6 +227,7 @@ fn a_side_step_without_a_clip_moves_no_body() {
         hybrid: None,
         mean_rotations: db.rows.mean_pose(0).rotations,
         base_hz: 0.9,
+        base_mps: 1.1,
         params: HmsParams::default(),
         db: Arc::new(db),
     };

@@ -2,10 +2,10 @@
 //!
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
+use glam::Vec2;
 use motiondb::body::Root;
 use motiondb::motion::{MotionDb, Parameters};
 
-use crate::maths::arc::moved_root;
 use crate::synthesis::blending::example_mix::advanced_phase;
 use crate::synthesis::blending::{ExampleMix, Reachable};
 use crate::synthesis::command::acceleration_limit::limited_by_axis;
@@ -16,7 +16,7 @@ use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::inertialization::Inertialization;
 use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
-use crate::synthesis::hybrid::step_timing::StepTiming;
+use crate::synthesis::hybrid::step_timing::{GaitTiming, StepTiming};
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
@@ -154,22 +154,35 @@ impl MotionState {
         }
     }
 
-    /// Lets the pace of the steps follow the motion over one step.
-    pub(crate) fn time_steps(&mut self, context: &SynthesisContext, step: &TimeStep) {
+    /// Lets the pace of the steps follow the motion, which moves toward a target, over one step.
+    pub(crate) fn time_steps(&mut self, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
         let mean_hz = match self.deformed(context) {
             Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
             None => self.mix.strides_hz(&context.db),
         };
-        self.timing.follow(self.phase, mean_hz, self.traits.cadence * context.base_hz, step);
+        let gait = GaitTiming {
+            mean_hz,
+            base_hz: self.traits.cadence * context.base_hz,
+            speed_mps: self.drawn_mps(&context.db).length(),
+            target: Vec2::new(target.speed_mps, target.strafe_mps).length() / context.base_mps,
+        };
+        self.timing.follow(self.phase, &gait, step);
     }
 
     /// The root under the body as it is drawn, for a body at `root`: ahead of it or behind by the lead.
     pub(crate) fn drawn_root(&self, root: &Root, db: &MotionDb) -> Root {
-        let parameters = match self.mode {
+        let lead_s = self.timing.lead_s;
+        let ahead_m = |db| root.frame().forward.rotate(lead_s * self.drawn_mps(db));
+        if lead_s == 0.0 { *root } else { Root { position_m: root.position_m + ahead_m(db), ..*root } }
+    }
+
+    /// Velocity of the drawn motion in the body's frame, m/s.
+    fn drawn_mps(&self, db: &MotionDb) -> Vec2 {
+        let Parameters { speed_mps, strafe_mps, .. } = match self.mode {
             Mode::Blending => self.smoothed[0].mix.parameters(db),
             Mode::SemiProcedural => self.smoothed[0].parameters,
         };
-        if self.timing.lead_s == 0.0 { *root } else { moved_root(root, &parameters, self.timing.lead_s) }
+        Vec2::new(speed_mps, strafe_mps)
     }
 
     fn tempo<'a>(&self, base_walk: &'a BaseWalk, parameters: Parameters) -> Tempo<'a> {

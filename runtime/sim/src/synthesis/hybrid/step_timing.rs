@@ -5,7 +5,7 @@
 //! 60 cm), and both feet stand meanwhile. So the phase runs quickly while a foot swings, and waits while both are planted.
 //!
 //! The root moves evenly, as the planner expects; the body moves in steps. It is drawn where the root is a lead of time ℓ
-//! later or earlier on its present arc, so planted feet hold. With the pace g, the phase rate over its mean φ',
+//! later or earlier at its present velocity, so planted feet hold. With the pace g, the phase rate over its mean φ',
 //!
 //! ```text
 //! ℓ' = g − 1
@@ -24,6 +24,11 @@ const SWING_HALF: f32 = 0.19;
 const SHORT_SWING: f32 = 0.8;
 /// Phase rates, divided by that of the base walk, at which steps are short, and from which on they keep their timing.
 const SHORT_STEPS: [f32; 2] = [0.75, 1.0];
+/// Speeds to which a body is to change, divided by that of the base walk, with the same meaning: the first step of a walk
+/// is no short one.
+const SHORT_SPEEDS: [f32; 2] = [0.5, 0.8];
+/// Greatest distance of the body from its root, m: half a small step.
+const LEAD_MAX_M: f32 = 0.1;
 /// Greatest pace of a swing.
 const PACE_MAX: f32 = 6.0;
 /// Range of the pace while both feet stand.
@@ -45,9 +50,10 @@ impl Default for StepTiming {
 }
 
 impl StepTiming {
-    /// Follows a gait at a phase, whose mean phase rate is `mean_hz`; that of the base walk is `base_hz`.
-    pub(crate) fn follow(&mut self, phase: f32, mean_hz: f32, base_hz: f32, step: &TimeStep) {
-        let swing_pace = swing_pace(mean_hz / base_hz);
+    /// Follows a gait at a phase.
+    pub(crate) fn follow(&mut self, phase: f32, gait: &GaitTiming, step: &TimeStep) {
+        let &GaitTiming { mean_hz, base_hz, speed_mps, target } = gait;
+        let swing_pace = swing_pace(mean_hz / base_hz, target);
         if swing_pace == 1.0 && *self == Self::default() {
             return;
         }
@@ -63,7 +69,8 @@ impl StepTiming {
             (left_s / until_s).clamp(least, greatest)
         };
         self.pace = pace + step.pace_left * (self.pace - pace);
-        self.lead_s += (self.pace - 1.0) * step.dt_s;
+        let lead_max_s = LEAD_MAX_M / speed_mps.max(f32::MIN_POSITIVE);
+        self.lead_s = (self.lead_s + (self.pace - 1.0) * step.dt_s).clamp(-lead_max_s, lead_max_s);
         let is_over = |off: f32| off.abs() < 1e-3;
         if swing_pace == 1.0 && is_over(self.pace - 1.0) && is_over(self.lead_s) {
             *self = Self::default();
@@ -71,23 +78,44 @@ impl StepTiming {
     }
 }
 
-/// q of a gait, given its phase rate divided by that of the base walk.
-fn swing_pace(rate: f32) -> f32 {
-    let [short, long] = SHORT_STEPS;
-    let shortness = ((long - rate) / (long - short)).clamp(0.0, 1.0);
+/// What the timing of steps depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GaitTiming {
+    /// φ', mean phase rate of the gait, 1/s.
+    pub(crate) mean_hz: f32,
+    /// Phase rate of the base walk, 1/s.
+    pub(crate) base_hz: f32,
+    /// Speed of the gait, m/s.
+    pub(crate) speed_mps: f32,
+    /// Speed to which the body is to change, divided by that of the base walk.
+    pub(crate) target: f32,
+}
+
+/// q of a gait, given its phase rate and the speed to come, each divided by that of the base walk.
+fn swing_pace(rate: f32, target: f32) -> f32 {
+    let shortness = shortness(rate, SHORT_STEPS).min(shortness(target, SHORT_SPEEDS));
     1.0 + shortness * ((1.0 / (SHORT_SWING * rate)).min(PACE_MAX) - 1.0)
+}
+
+/// 1 below a range, 0 above it.
+fn shortness(value: f32, [short, long]: [f32; 2]) -> f32 {
+    ((long - value) / (long - short)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn gait(mean_hz: f32, speed_mps: f32) -> GaitTiming {
+        GaitTiming { mean_hz, base_hz: 0.83, speed_mps, target: speed_mps / 1.1 }
+    }
+
     /// Durations of the swings and of whole strides of a gait, and the range of its lead after some strides, s.
     fn timing(mean_hz: f32, dt_s: f32) -> (f32, f32, [f32; 2]) {
         let (mut timing, mut phase, step) = (StepTiming::default(), 0.3_f32, TimeStep::new(dt_s));
         let (mut swing_s, mut all_s, mut strides, mut leads_s) = (0.0, 0.0, 0.0, [f32::MAX, f32::MIN]);
         for index in 0..(60.0 / dt_s) as usize {
-            timing.follow(phase, mean_hz, 0.83, &step);
+            timing.follow(phase, &gait(mean_hz, 0.2), &step);
             let swings = (phase - 0.5 * (2.0 * phase).round()).abs() < SWING_HALF;
             phase += dt_s * mean_hz * timing.pace;
             if index as f32 * dt_s > 20.0 {
@@ -119,10 +147,24 @@ mod tests {
     }
 
     #[test]
+    fn the_first_step_of_a_walk_is_no_short_one() {
+        let (mut timing, step) = (StepTiming::default(), TimeStep::new(1.0 / 60.0));
+        timing.follow(0.9, &GaitTiming { target: 1.2, ..gait(0.3, 0.2) }, &step);
+        assert_eq!(timing, StepTiming::default());
+    }
+
+    #[test]
+    fn a_body_that_speeds_up_stays_near_its_root() {
+        let (mut timing, step) = (StepTiming { pace: 1.0, lead_s: 0.7 }, TimeStep::new(1.0 / 60.0));
+        timing.follow(0.0, &gait(0.7, 1.0), &step);
+        assert!(timing.lead_s <= LEAD_MAX_M, "{timing:?}");
+    }
+
+    #[test]
     fn a_lead_is_made_up_where_the_body_walks_on() {
         let (mut timing, step, mut phase) = (StepTiming { pace: 3.0, lead_s: 0.4 }, TimeStep::new(1.0 / 60.0), 0.1_f32);
         for _ in 0..300 {
-            timing.follow(phase, 0.9, 0.83, &step);
+            timing.follow(phase, &gait(0.9, 0.2), &step);
             phase = (phase + timing.pace * 0.9 / 60.0).fract();
         }
         assert_eq!(timing, StepTiming::default());

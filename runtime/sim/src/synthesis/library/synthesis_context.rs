@@ -37,6 +37,8 @@ pub struct SynthesisContext {
     pub mean_rotations: [Quat; JOINT_COUNT],
     /// Strides per second of the base walk.
     pub base_hz: f32,
+    /// Speed of the base walk, m/s.
+    pub base_mps: f32,
     /// Tunables.
     pub params: HmsParams,
 }
@@ -48,6 +50,7 @@ impl SynthesisContext {
         let base = walk(&db).unwrap_or(0);
         let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
-        Self { domain, hybrid, mean_rotations, base_hz, db, params }
+        let base_mps = db.examples[base].parameters.speed_mps.abs().max(f32::MIN_POSITIVE);
+        Self { domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
     }
 }

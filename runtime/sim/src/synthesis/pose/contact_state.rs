@@ -29,15 +29,11 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
     }
 
-    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require. `contacts_ahead`
-    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later; `is_new_motion`
-    /// is true in the first step after a switch.
+    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
-        planted: [bool; 2],
-        contacts_ahead: [f32; 2],
-        is_new_motion: bool,
+        motion: &FootMotion,
         frame: &RootFrame,
         skeleton: &Skeleton,
         step: &TimeStep,
@@ -52,11 +48,11 @@ impl ContactState {
             let passes = side != first && self.locks[first].planted();
             let away_m = || away_m(side, foot.ankle_m, other.ankle_m, locked[first].ankle_m);
             let away_m = if passes { frame.forward.rotate(away_m()) } else { Vec2::ZERO };
-            let lock = self.locks[side].step(&posed, planted[side], contacts_ahead[side], away_m, step);
+            let lock = self.locks[side].step(&posed, motion.planted[side], motion.contacts_ahead[side], away_m, step);
             locked[side] =
                 FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
         }
-        posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, is_new_motion, step));
+        posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, motion.is_new, step));
     }
 
     /// Records the soles as the legs could draw them.
@@ -65,6 +61,17 @@ impl ContactState {
             lock.record_drawn(sole_m.map(|point_m| frame.to_world(point_m)), step);
         }
     }
+}
+
+/// What the posed motion says of the feet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FootMotion {
+    /// Which feet are planted.
+    pub(crate) planted: [bool; 2],
+    /// Contact of each foot [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
+    pub(crate) contacts_ahead: [f32; 2],
+    /// Whether this is the first step after a switch.
+    pub(crate) is_new: bool,
 }
 
 /// A foot of a posture, in the world.

@@ -2,8 +2,8 @@
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`, all held by
-//! `contact_state`; `look_at` turns head and chest.
+//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`,
+//! all held by `contact_state`; `look_at` turns head and chest.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
@@ -15,7 +15,7 @@ pub(crate) mod look_at;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
 
-pub(crate) use contact_state::ContactState;
+pub(crate) use contact_state::{ContactState, FootMotion};
 pub(crate) use foot_lock::FootLock;
 pub use leg::FootPose;
 pub(crate) use leg::PosedLeg;
