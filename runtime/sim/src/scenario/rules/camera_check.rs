@@ -205,7 +205,7 @@ mod tests {
         let still = "eye_m = [0, -4, 1.6]\nlook_at_m = [0, 0, 1]";
         let cases = [
             (format!("[camera]\n{still}"), 3, "no focal length"),
-            (format!("[camera]\n{still}\nfocal_mm = nan"), 3, "focal_mm is NaN"),
+            (format!("[camera]\n{still}\nfocal_mm = nan"), 6, "focal_mm is NaN"),
             ("[camera]\neye_m = [0, nan, 1]\nlook_at_m = [0, 0, 1]\nfocal_mm = 35".to_owned(), 3, "y of eye_m is NaN"),
             (format!("[camera]\n{still}\nfocal_mm = 35\nfov_deg = 40"), 3, "several lenses"),
             ("[camera]\nfov_deg = 40".to_owned(), 3, "no position"),
