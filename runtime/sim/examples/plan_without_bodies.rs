@@ -89,6 +89,7 @@ fn main() {
             one_way: &[],
             priorities: None,
             constraints: &constraints,
+            speed_factors: None,
             dt_s: DT_S,
             bodies: false,
         };

@@ -69,6 +69,7 @@ impl AgentLife {
     pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
         Self {
             group: spec.group.map(|group| group.first),
+            stature: spec.stature,
             spec,
             source,
             reaction_s: 0.0,
@@ -76,7 +77,6 @@ impl AgentLife {
             removed: None,
             database: 0,
             character: None,
-            stature: 1.0,
             radii_m: Vec::new(),
             teleports: Vec::new(),
         }

@@ -198,6 +198,7 @@ impl AgentGroup {
             pre_movement_s: 0.0,
             closed_zones: 0,
             priority: 0.0,
+            stature: 1.0,
             characters,
             wears_radius: !states_radius && profiles_of.has_characters(),
         };
@@ -244,6 +245,7 @@ impl AgentGroup {
             pre_movement_s,
             closed_zones,
             priority,
+            stature: numbers.stature,
             characters: numbers.characters,
             wears_radius: numbers.wears_radius,
             group: None,
