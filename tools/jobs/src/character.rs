@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::{self, CharacterSize, Scenario};
+use fbcrowd_sim::scenario::{self, CharacterSize, STATURE, Scenario};
 use motiondb::body::Skeleton;
 use motiondb::character::{self, Character, CharacterFit};
 use motiondb_compiler::Outside;
@@ -145,8 +145,14 @@ impl ScenarioCharacters {
 /// The warning about a character whose legs differ much from the crowd's.
 pub fn scaled_legs(fit: &CharacterFit) -> String {
     let (own_m, crowd_m) = (fit.character.hips_over_soles_m, fit.hips_over_soles_m);
+    let stature = 1.0 / fit.scale;
+    let remedy = if STATURE.contains(&stature) {
+        format!("; for its own size, give the agents that wear it a profile with `stature = {stature:.2}`")
+    } else {
+        String::new()
+    };
     format!(
-        "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}",
+        "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}{remedy}",
         fit.scale
     )
 }

@@ -47,7 +47,7 @@ pub use places::shot_spec::{FIRST_FRAME, FrameRate, ShotSpec};
 pub use places::state_zones::StateZones;
 pub use places::zone_spec::ZoneSpec;
 pub use profile::{DrawnNumbers, Profile};
-pub use ranges::{STEP_RANGE_S, check_view};
+pub use ranges::{STATURE, STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use rules::check;
 pub use rules::shot_check::check_shot;

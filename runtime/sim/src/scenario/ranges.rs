@@ -28,7 +28,7 @@ pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Time for which an agent stands before it begins, s: up to a day.
 pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
 /// Size of a body, relative to the database's skeleton: from a child of two years to a giant.
-pub(crate) const STATURE: RangeInclusive<f32> = 0.4..=1.5;
+pub const STATURE: RangeInclusive<f32> = 0.4..=1.5;
 /// Right of way; only differences count, up to 1.
 pub(crate) const PRIORITY: RangeInclusive<f32> = -100.0..=100.0;
 /// Distance between members of a group that walk abreast, m: from shoulder to shoulder to two arms apart.
