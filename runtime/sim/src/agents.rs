@@ -126,7 +126,8 @@ impl Agents {
         self.ids.push(id);
         self.removals.push(None);
         self.are_between_steps.push(true);
-        self.positions_m.push(spec.position_m);
+        // As it is recorded: the way through the body's world may round it.
+        self.positions_m.push(stature.root_of_crowd(body.root).position_m);
         self.velocities_mps.push(Vec2::ZERO);
         self.facings_rad.push(spec.facing_rad);
         self.radii_m.push(spec.radius_m);
@@ -152,7 +153,7 @@ impl Agents {
         let (body, output) = standing(self.ids[index], root, self.statures[index], scenario, context);
         self.frames[index].show(&output);
         self.are_between_steps[index] = true;
-        self.positions_m[index] = position_m;
+        self.positions_m[index] = self.statures[index].root_of_crowd(body.root).position_m;
         self.velocities_mps[index] = Vec2::ZERO;
         self.bodies[index] = body;
         self.stances[index] = output.stance;

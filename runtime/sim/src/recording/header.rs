@@ -11,6 +11,7 @@ use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{HEAD, HEAD_BYTE};
 use crate::recording::zipped_json;
+use crate::scenario::ranges::check_has_agents;
 use crate::scenario::rules::check::check_numbers;
 use crate::scenario::{CharacterSpec, Scenario};
 
@@ -110,7 +111,7 @@ impl Header {
     /// # Errors
     /// What is wrong.
     pub(crate) fn check(&self) -> Result<(), String> {
-        check_numbers(&self.scenario).map_err(|fault| fault.message)?;
+        check_has_agents(&self.scenario).and_then(|()| check_numbers(&self.scenario)).map_err(|fault| fault.message)?;
         let counts = [
             ("databases", self.databases.len(), 1..=DATABASES_MAX),
             ("characters", self.characters.len(), 0..=DATABASES_MAX),

@@ -70,11 +70,18 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     }
     check_view(&scenario.view)?;
     check_params(&scenario.params)?;
-    let agents = &scenario.agents;
-    let help = "give at least one, at most a million";
-    let least = usize::from(scenario.sources.is_empty());
-    within(&ScenarioPart::Agents, "the number of agents", agents.len(), &(least..=AGENTS_MAX), help)?;
-    agents.iter().enumerate().try_for_each(|(index, agent)| check_agent(index, agent))
+    check_count(scenario, 0)?;
+    scenario.agents.iter().enumerate().try_for_each(|(index, agent)| check_agent(index, agent))
+}
+
+/// Checks that there are agents, or sources of them.
+pub(crate) fn check_has_agents(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    check_count(scenario, usize::from(scenario.sources.is_empty()))
+}
+
+fn check_count(scenario: &Scenario, least: usize) -> Result<(), ScenarioFault> {
+    let (count, help) = (scenario.agents.len(), "give at least one, at most a million");
+    within(&ScenarioPart::Agents, "the number of agents", count, &(least..=AGENTS_MAX), help)
 }
 
 /// Checks one number; NaN is in no range.

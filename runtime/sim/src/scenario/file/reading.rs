@@ -27,7 +27,7 @@ use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::sources::sources;
 use crate::scenario::file::zone_tables::zones;
 use crate::scenario::resolved::{SEED, Scenario};
-use crate::scenario::rules::check::check;
+use crate::scenario::rules::check::{check, check_plan};
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::measure_check::check_zones;
 use crate::variation::Variation;
@@ -48,7 +48,7 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
 pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let file = ScenarioFile::parse(source)?;
     file.check_has_agents(source)?;
-    resolve(file, source)
+    resolve(file, source, check)
 }
 
 /// As [`read`]; the file may state a ground alone, without agents and sources.
@@ -57,13 +57,14 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
 /// Where a file cannot be read or describes something that cannot be simulated.
 pub fn read_plan(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let source = read_text(path)?;
-    resolve(ScenarioFile::parse(&source)?, &source)
+    resolve(ScenarioFile::parse(&source)?, &source, check_plan)
 }
 
-/// The scenario that a file describes.
+/// The scenario that a file describes, which `check` accepts.
 fn resolve(
     mut file: ScenarioFile,
     source: &SourceText,
+    check: fn(&Scenario) -> Result<(), ScenarioFault>,
 ) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let tables = file.take_behaviour();
     let behaviour = tables.resolve(source)?;

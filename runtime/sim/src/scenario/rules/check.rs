@@ -10,7 +10,7 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::characters::character_check::check_characters;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::ranges::check_ranges;
+use crate::scenario::ranges::{check_has_agents, check_ranges};
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
 use crate::scenario::rules::camera_check::{check_cameras, check_followed, check_heights};
@@ -34,6 +34,12 @@ const TOUCH_M: f64 = 1e-4;
 /// # Errors
 /// The first broken rule.
 pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    check_has_agents(scenario)?;
+    check_plan(scenario)
+}
+
+/// As [`check`]; there need not be agents.
+pub(crate) fn check_plan(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_numbers(scenario)?;
     check_ground(scenario)?;
     check_agents_clear_of_obstacles(scenario)?;
@@ -44,7 +50,7 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_goals_clear_of_obstacles(scenario)
 }
 
-/// Checks that every number is in range, and how many agents there are.
+/// Checks that every number is in range.
 ///
 /// # Errors
 /// The first number that is not.
