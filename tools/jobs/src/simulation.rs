@@ -62,6 +62,10 @@ pub struct PreparedSimulation {
 /// Where the planner looks less far ahead than a change of synthesis takes, or the system has too little memory.
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
     check_memory(scenario.agents.len())?;
+    if let Some(style) = scenario.styles.iter().find(|style| db.of_style(style).is_none()) {
+        let existing = db.styles().map(|db| db.style.clone()).filter(|style| !style.is_empty()).collect();
+        return Err(JobError::NoStyle { style: style.clone(), existing });
+    }
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
     if let Some(error) = simulation.route_error() {
         return Err(error.clone().into());
@@ -69,6 +73,7 @@ pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Re
     note_missing_motions(&db, simulation.database(), observer);
     note_closed_passages(&scenario, observer);
     check_horizon(simulation.database(), &scenario)?;
+    simulation.style_databases().try_for_each(|db| check_horizon(db, &scenario))?;
     Ok(PreparedSimulation { scenario, simulation, character_checksums: Vec::new() })
 }
 
