@@ -157,6 +157,24 @@ fn check_states_agents_passages_and_sizes() {
 }
 
 #[test]
+fn check_draws_a_plan_without_agents() {
+    let folder = folder("plan");
+    let room = "[[walkable]]\npolygon_m = [[0, 0], [8, 0], [8, 6], [0, 6]]\n";
+    let walls = "[[obstacles]]\npolygon_m = [[3, 0], [3.2, 0], [3.2, 2.9], [3, 2.9]]\n\
+                 [[obstacles]]\npolygon_m = [[3, 3.1], [3.2, 3.1], [3.2, 6], [3, 6]]\n";
+    let scene = folder.join("plan.toml");
+    fs::write(&scene, format!("duration_s = 10\n{room}{walls}")).unwrap();
+    let plot = folder.join("plan.png");
+    let checked = fbcrowd(&["check", text(&scene), "--json", "--plot", text(&plot)]).expect_code(0).json();
+    check_schema("check", &checked);
+    assert_eq!((&checked["agents"], &checked["meshes"][0]["parts"]), (&0.into(), &2.into()));
+    assert_eq!(checked["closed_passages"].as_array().unwrap().len(), 1);
+    assert!(plot.is_file());
+    assert!(fbcrowd(&["check", text(&scene)]).expect_code(0).stdout.contains("no agents: the plan can be checked"));
+    fbcrowd(&["simulate", text(&scene), "-o", text(&folder.join("plan.fbrec"))]).expect_code(2).says(&["[[agents]]"]);
+}
+
+#[test]
 fn check_looks_for_the_files_of_a_scenario() {
     let folder = folder("check_files");
     let scene = folder.join("scene.toml");

@@ -9,7 +9,7 @@ use fbcrowd_sim::planning::PlanExplanation;
 use fbcrowd_sim::recording::{Recording, Replay};
 use fbcrowd_sim::scenario::Scenario;
 use motiondb::files::database_file;
-use support::{fbcrowd, folder, repository, text};
+use support::{fbcrowd, folder, mocap, repository, text};
 
 /// A folder with bundled clips, each at a path of its own.
 fn clips(name: &str, files: &[(&str, &str)]) -> PathBuf {
@@ -92,6 +92,25 @@ fn a_manifest_states_and_removes_styles() {
     fs::write(clips.join("manifest.toml"), "[[clips]]\npath = '.'\nstyle = '../x'\n").unwrap();
     let database = clips.with_file_name("motion.fbdb");
     fbcrowd(&["compile", text(&clips), "-o", text(&database)]).expect_code(2).says(&["manifest.toml:3", "style"]);
+}
+
+#[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn published_sets_have_their_styles() {
+    let folder = folder("published");
+    let found = |set: &str| {
+        let (clips, database) = (mocap().join(set), folder.join(format!("{set}.fbdb")));
+        fbcrowd(&["compile", text(&clips), "-o", text(&database)]).expect_code(0);
+        fbcrowd(&["validate", text(&database)]).expect_code(0);
+        let (db, _) = database_file::load(&database).unwrap();
+        db.styles().map(|db| (db.style.clone(), db.correspondence.is_some())).collect::<Vec<_>>()
+    };
+    let wanted =
+        |styles: &[(&str, bool)]| styles.iter().map(|(style, both)| ((*style).to_owned(), *both)).collect::<Vec<_>>();
+    let bandai = [("normal", true), ("active", true), ("feminine", false), ("masculine", true), ("masculinity", true)];
+    assert_eq!(found("bandai_namco"), wanted(&bandai));
+    assert_eq!(found("xia"), wanted(&[("neutral", false), ("strutting", false)]));
+    assert_eq!(found("games105").len(), 1);
 }
 
 /// A scenario of agents side by side, each with keys of its own.

@@ -86,6 +86,13 @@ pub struct Joints {
     pub orientations: [Quat; JOINT_COUNT],
 }
 
+impl Joints {
+    /// The joints of the same pose of a body that is `size` times as large ([`Skeleton::sized`]), about the root.
+    pub fn sized(&self, size: f32) -> Self {
+        Self { positions_m: self.positions_m.map(|position_m| size * position_m), orientations: self.orientations }
+    }
+}
+
 impl Pose {
     /// Positions and orientations of all joints in the root frame.
     ///

@@ -4,6 +4,8 @@
 //! with palms down; the feet are flat on z = 0. The rest orientation of every joint is the identity, so the offset of a
 //! joint is its parent's bone in body axes. Metres, radians.
 
+use std::borrow::Cow;
+
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -227,6 +229,26 @@ impl Skeleton {
             self.offsets_m[Joint::SHANKS[side].index()].length() + self.offsets_m[Joint::FEET[side].index()].length()
         };
         0.5 * (leg(0) + leg(1))
+    }
+
+    /// The skeleton of a body that is `size` times as large: all lengths grow, angles stay.
+    pub fn sized(&self, size: f32) -> Cow<'_, Self> {
+        if size == 1.0 {
+            return Cow::Borrowed(self);
+        }
+        let foot = |foot: &Foot| Foot {
+            heel_m: size * foot.heel_m,
+            ball_m: size * foot.ball_m,
+            toe_tip_m: size * foot.toe_tip_m,
+            measured_m: foot.measured_m.map(|point_m| size * point_m),
+        };
+        Cow::Owned(Self {
+            offsets_m: self.offsets_m.map(|offset_m| size * offset_m),
+            segment_ends_m: self.segment_ends_m.map(|end_m| size * end_m),
+            segment_radii_m: self.segment_radii_m.map(|radius_m| size * radius_m),
+            limits_rad: self.limits_rad,
+            feet: self.feet.each_ref().map(foot),
+        })
     }
 }
 

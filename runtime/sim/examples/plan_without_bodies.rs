@@ -90,6 +90,7 @@ fn main() {
             priorities: None,
             constraints: &constraints,
             own_constraints: None,
+            speed_factors: None,
             dt_s: DT_S,
             bodies: false,
         };

@@ -18,7 +18,7 @@ use crate::route::crowd_routes::RouteMemory;
 use crate::route::path::PathProgress;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::{AgentSpec, Scenario};
-use crate::synthesis::{Body, BodyOutput, SynthesisContext, Traits};
+use crate::synthesis::{Body, BodyOutput, Stature, SynthesisContext, Traits};
 
 /// First random stream of the starting phases; the scenario uses those below.
 const START_PHASE_STREAM: u64 = 1 << 32;
@@ -70,7 +70,11 @@ pub struct Agents {
     pub strafing_s: Vec<f32>,
     /// Contiguous time of stepping back after the last plan, s.
     pub stepping_back_s: Vec<f32>,
-    /// The simulated body.
+    /// Velocities of the body, divided by those of a body of the skeleton's size.
+    pub speed_factors: Vec<f32>,
+    /// Size of the body.
+    pub statures: Vec<Stature>,
+    /// The simulated body, in the world of its own size.
     pub bodies: Vec<Body>,
     /// Stance that planners read.
     pub stances: Vec<Stance>,
@@ -99,6 +103,8 @@ macro_rules! for_each_array {
             plans,
             strafing_s,
             stepping_back_s,
+            speed_factors,
+            statures,
             bodies,
             stances,
             frames
@@ -116,7 +122,8 @@ impl Agents {
     /// in step. Its id must be greater than all others.
     pub fn push(&mut self, id: AgentId, spec: &AgentSpec, scenario: &Scenario, context: &SynthesisContext) {
         let root = Root { position_m: spec.position_m, facing_rad: spec.facing_rad };
-        let (body, output) = standing(id, root, scenario, context);
+        let stature = Stature::new(spec.stature);
+        let (body, output) = standing(id, root, stature, scenario, context);
         let mut frame = AgentFrame { id, ..AgentFrame::default() };
         frame.show(&output);
         self.ids.push(id);
@@ -136,6 +143,8 @@ impl Agents {
         self.plans.push(Plan::default());
         self.strafing_s.push(0.0);
         self.stepping_back_s.push(0.0);
+        self.speed_factors.push(stature.speed_factor());
+        self.statures.push(stature);
         self.bodies.push(body);
         self.stances.push(output.stance);
         self.frames.push(frame);
@@ -144,7 +153,7 @@ impl Agents {
     /// Lets an agent stand at another position, with a body that has not moved yet.
     pub(crate) fn stand_at(&mut self, index: usize, position_m: Vec2, scenario: &Scenario, context: &SynthesisContext) {
         let root = Root { position_m, facing_rad: self.facings_rad[index] };
-        let (body, output) = standing(self.ids[index], root, scenario, context);
+        let (body, output) = standing(self.ids[index], root, self.statures[index], scenario, context);
         self.frames[index].show(&output);
         self.are_between_steps[index] = true;
         self.positions_m[index] = position_m;
@@ -177,16 +186,23 @@ fn retain_marked<T>(values: &mut Vec<T>, keeps: &[bool]) {
 }
 
 /// The body of an agent that stands at a root, with the agent's phase and traits, and its first output.
-fn standing(id: AgentId, root: Root, scenario: &Scenario, context: &SynthesisContext) -> (Body, BodyOutput) {
+fn standing(
+    id: AgentId,
+    root: Root,
+    stature: Stature,
+    scenario: &Scenario,
+    context: &SynthesisContext,
+) -> (Body, BodyOutput) {
     let Scenario { seed, coupling, variation, .. } = *scenario;
     // Bodies of the baseline follow their discs as in the clips.
     let variation = variation.filter(|_| coupling == Coupling::TwoWay);
     let traits = variation.map_or_else(Traits::default, |variation| variation.traits(seed, id.0));
+    let root = stature.root_of_body(root);
     let (body, mut output) = Body::standing_with(context, root, start_phase(seed, id), traits);
     if coupling == Coupling::Discs {
         output.contacts = [0.0; 2];
     }
-    (body, output)
+    (body, stature.output_of_crowd(&output))
 }
 
 /// A phase in [0, 1) from 24 random bits, the mantissa of an f32.

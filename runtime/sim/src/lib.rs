@@ -70,6 +70,7 @@
 //!     priorities: None,
 //!     constraints: &MotionConstraints::new(&VelocityHull::default()),
 //!     own_constraints: None,
+//!     speed_factors: None,
 //!     dt_s: 0.1,
 //!     bodies: false,
 //! };

@@ -70,13 +70,13 @@ impl AgentLife {
         Self {
             group: spec.group.map(|group| group.first),
             database: spec.style,
+            stature: spec.stature,
             spec,
             source,
             reaction_s: 0.0,
             born,
             removed: None,
             character: None,
-            stature: 1.0,
             radii_m: Vec::new(),
             teleports: Vec::new(),
         }

@@ -112,6 +112,8 @@ pub struct Simulation {
     has_groups: bool,
     /// Whether agents may have different priorities.
     has_priorities: bool,
+    /// Whether bodies may have other sizes than the skeleton.
+    has_statures: bool,
     /// Number of steps so far: the index of the present frame.
     steps: u32,
 }
@@ -152,6 +154,7 @@ impl Simulation {
             contexts,
             has_groups: scenario.has_groups(),
             has_priorities: scenario.has_priorities(),
+            has_statures: scenario.has_statures(),
             steps: 0,
         };
         simulation.close_doors_at_start();
@@ -281,6 +284,7 @@ impl Simulation {
             constraints: &self.constraints[0],
             own_constraints: (self.constraints.len() > 1)
                 .then_some(OwnConstraints { styles: &agents.styles, constraints: &self.constraints }),
+            speed_factors: self.has_statures.then_some(&agents.speed_factors[..]),
             dt_s: self.scenario.dt_s,
             bodies: self.scenario.coupling.plans_for_bodies(),
         }
@@ -301,23 +305,32 @@ impl Simulation {
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
         let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
-        let bodies = bodies.zip(&agents.plans).zip(&agents.wall_radii_m).zip(&agents.closed_zones).zip(&agents.styles);
+        let planned = agents.plans.par_iter().zip(&agents.statures);
+        let bodies = bodies.zip(planned).zip(&agents.wall_radii_m).zip(&agents.closed_zones).zip(&agents.styles);
         bodies.for_each(
-            |(((((((body, stance), frame), is_between_steps), plan), &wall_radius_m), &closed_zones), &style)| {
+            |(
+                ((((((body, stance), frame), is_between_steps), (plan, stature)), &wall_radius_m), &closed_zones),
+                &style,
+            )| {
                 let context = context_of(contexts, style);
                 let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
+                let (plan, step) = (&stature.plan_of_body(plan), &stature.step_of_body(&time_step));
                 let from = body.root;
                 match coupling {
-                    Coupling::TwoWay => body.advance(context, plan, &time_step),
-                    Coupling::Discs | Coupling::Decoupled => body.root = body_to_disc::as_planned(from, plan, dt_s),
+                    Coupling::TwoWay => body.advance(context, plan, step),
+                    Coupling::Discs | Coupling::Decoupled => {
+                        body.root = body_to_disc::as_planned(from, plan, step.dt_s);
+                    }
                 }
-                let kept = body_to_disc::outside_walls(from.position_m, body.root, wall_radius_m, obstacles);
-                body.place_root(from.position_m, kept, dt_s);
+                let [before, root] = [from, body.root].map(|root| stature.root_of_crowd(root));
+                let kept = body_to_disc::outside_walls(before.position_m, root, wall_radius_m, obstacles);
+                body.place_root(from.position_m, stature.root_of_body(kept), step.dt_s);
                 let output = match coupling {
-                    Coupling::TwoWay => body.synthesize(context, &time_step),
-                    Coupling::Decoupled => decoupled::follow(body, context, from, dt_s),
+                    Coupling::TwoWay => body.synthesize(context, step),
+                    Coupling::Decoupled => decoupled::follow(body, context, from, step.dt_s),
                     Coupling::Discs => return,
                 };
+                let output = stature.output_of_crowd(&output);
                 *stance = output.stance;
                 *is_between_steps = are_between_steps(frame.contacts, output.contacts);
                 frame.show(&output);
@@ -334,7 +347,7 @@ impl Simulation {
         let (body, plan, frame) = (&agents.bodies[index], &agents.plans[index], &mut agents.frames[index]);
         *frame = AgentFrame {
             state: self.crowd.agents.get(index).map_or(0, |agent| agent.state as u16),
-            root: body.root,
+            root: agents.statures[index].root_of_crowd(body.root),
             preferred_mps: agents.preferred_mps[index],
             planned_mps: plan.velocity_mps,
             phase: body.motion.phase,

@@ -66,7 +66,7 @@ fn starts_and_goals_in_doors_are_shown_at_their_agents() {
     let beside = agent("[1.9, 0.3]", "[5, 0]");
     check_rejected("beside", &beside, DOOR, &beside, "agent 0 starts in a door");
     let into = agent("[0, 0]", "[2.1, 0]");
-    check_rejected("goal", &into, DOOR, &into, "a goal of agent 0 lies in the door of signal `gate`");
+    check_rejected("goal", &into, DOOR, &into, "of agent 0 lies in the door of signal `gate`");
     let second = "{ polygon_m = [[7, 0], [8, 0], [8, 1]], open = \"other\" }";
     let path = write("open", &agent("[7.8, 0.2]", "[5, 0]"), second);
     let text = fs::read_to_string(&path).unwrap() + "[signals.other]\ngreen_s = 5\nred_s = 5\n";

@@ -58,7 +58,7 @@ fn mistakes_of_closed_zones_are_shown_at_their_place() {
     let closed = zone(", closed_to = [\"staff\"]");
     check_rejected("start", STAFF, &closed, STAFF, "agent 0 starts in zone 0, which is closed to it");
     let goal = "{ at_m = [-9, 0], goals_m = [[2, 0]], profile = \"staff\" }";
-    check_rejected("goal", goal, &closed, goal, "a goal of agent 0 lies in zone 0");
+    check_rejected("goal", goal, &closed, goal, "of agent 0 lies in zone 0");
 }
 
 #[test]

@@ -72,7 +72,8 @@ fn eye_and_target_m(recording: &Recording, spec: &CameraSpec, time_s: f64) -> Re
     if let Some(agent) = spec.eyes_of {
         let bodies = sample(recording, time_s)?;
         let body = present(&bodies, spec, agent, time_s)?;
-        return Ok(eyes_m(body, recording.header().skeleton()));
+        let stature = recording.population().agents[body.id.index()].stature;
+        return Ok(eyes_m(body, recording.header().skeleton(), stature));
     }
     if !spec.keys.is_empty() {
         return Ok(match spec.key_line {
@@ -126,10 +127,11 @@ fn follow_m(
     Ok([eye_m.extend(follow.height_m), at_m.extend(FOLLOWED_M)])
 }
 
-fn eyes_m(body: &AgentFrame, skeleton: &Skeleton) -> [Vec3; 2] {
-    let head_m = body.root.to_world(body.pose.forward_kinematics(skeleton).positions_m[Joint::Head.index()]);
+fn eyes_m(body: &AgentFrame, skeleton: &Skeleton, stature: f32) -> [Vec3; 2] {
+    let joints = body.pose.forward_kinematics(skeleton).sized(stature);
+    let head_m = body.root.to_world(joints.positions_m[Joint::Head.index()]);
     let ahead = body.root.forward();
-    let eye_m = head_m + (EYES_M.x * ahead).extend(EYES_M.y);
+    let eye_m = head_m + stature * (EYES_M.x * ahead).extend(EYES_M.y);
     [eye_m, eye_m + GAZE_M * ahead.extend(GAZE_SLOPE)]
 }
 

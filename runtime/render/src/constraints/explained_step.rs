@@ -61,5 +61,5 @@ fn axis_limit_mps(step: &RecordedStep, agent: usize) -> f32 {
     let fastest_mps = corners_mps.map(|corner_mps: &Vec2| corner_mps.length()).fold(0.0, f32::max);
     let preferred_mps = step.spec(agent).preferred_speed_mps.max(MIN_PREFERRED_MPS);
     let [least, most] = AXIS_LIMITS_OF_PREFERRED.map(|factor| factor * preferred_mps);
-    AXIS_MARGIN * fastest_mps.clamp(least, most)
+    AXIS_MARGIN * (step.speed_factor(agent) * fastest_mps).clamp(least, most)
 }

@@ -134,18 +134,23 @@ impl VelocitySpace<'_> {
     /// Draws turning set, holding set (the active one stronger), sharp-turn edges and the greatest speed.
     fn draw_sets(&mut self) {
         let hull = self.explained.step.velocity_hull(self.explained.agent);
-        let forward = self.forward();
+        let (forward, factor) = (self.forward(), self.explained.step.speed_factor(self.explained.agent));
         let sets = [(VelocitySet::Holding, &hull.holding_mps), (VelocitySet::Turning, &hull.turning_mps)];
         for (set, corners_mps) in sets {
             let source = HalfPlaneSource::from(set);
             let in_force = self.half_planes().any(|half_plane| half_plane.source == source);
             let (fill, width, opacity) = if in_force { (0.10, 3.0, 1.0) } else { (0.03, 1.2, 0.6) };
             let outline = LineStyle { opacity, ..self.solid(source_colour(source), width) };
-            self.figure.polygon(&self.panel, corners_mps.iter().map(|corner| forward.rotate(*corner)), fill, outline);
+            self.figure.polygon(
+                &self.panel,
+                corners_mps.iter().map(|corner| forward.rotate(factor * *corner)),
+                fill,
+                outline,
+            );
         }
         let edge = LineStyle { opacity: 0.7, ..self.solid(SHARP_TURN_EDGES, 1.6) };
         for ends in &hull.sharp_turn_edges_mps {
-            self.figure.polyline(&self.panel, ends.map(|end| forward.rotate(end)), edge);
+            self.figure.polyline(&self.panel, ends.map(|end| forward.rotate(factor * end)), edge);
         }
         if let Some(limit_mps) = speed_limit_mps(self.explained) {
             let corners_mps = disc(limit_mps);

@@ -75,15 +75,17 @@ struct DrawnBody<'a> {
     look: Look,
 }
 
-/// Appends the parts of one agent's body.
+/// Appends the parts of one agent's body, whose size is `stature` times that of the skeleton.
 pub(crate) fn append_parts(
     parts: &mut Vec<DrawnPart>,
     skeleton: &Skeleton,
     frame: &AgentFrame,
+    stature: f32,
     look: Look,
     detail: Detail,
 ) {
-    let body = DrawnBody { skeleton, frame, joints: frame.pose.forward_kinematics(skeleton), look };
+    let joints = frame.pose.forward_kinematics(skeleton).sized(stature);
+    let body = DrawnBody { skeleton: &skeleton.sized(stature), frame, joints, look };
     if detail > Detail::Dot {
         for side in Side::BOTH {
             body.append_shoe(parts, side, detail);

@@ -93,7 +93,8 @@ impl<'a> TopView<'a> {
         Ok(Self { header, tracks, framing, background, doors, population: None, captions })
     }
 
-    /// The same with the doors of the recording, as they open and close, and its signals, as events change them.
+    /// The same with the doors of the recording, as they open and close, its signals, as events change them, and bodies
+    /// of their own size.
     pub fn with_doors(self, population: &'a Population) -> Self {
         let doors = DrawnDoors::new(&self.header.scenario, &population.doors, &self.framing);
         Self { doors, population: Some(population), ..self }
@@ -165,12 +166,18 @@ impl<'a> TopView<'a> {
         for agent in agents {
             if self.shows(agent.root.position_m) {
                 let look = look(agent.id.index());
-                drawn_body::append_parts(&mut parts, self.header.skeleton(), agent, look, detail);
+                let skeleton = self.header.skeleton();
+                drawn_body::append_parts(&mut parts, skeleton, agent, self.stature(agent), look, detail);
             }
         }
         // A stable sort: parts of equal height keep the order of agents.
         parts.sort_by(|one, other| one.top_m.total_cmp(&other.top_m));
         parts
+    }
+
+    /// Size of an agent's body, relative to the skeleton.
+    fn stature(&self, agent: &AgentFrame) -> f32 {
+        self.population.and_then(|population| population.agents.get(agent.id.index())).map_or(1.0, |life| life.stature)
     }
 
     fn shows(&self, position_m: Vec2) -> bool {

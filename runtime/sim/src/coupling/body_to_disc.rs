@@ -23,12 +23,14 @@ pub fn outside_walls(from_m: Vec2, root: Root, wall_radius_m: f32, obstacles: &O
 
 /// Updates what planners read of the agents from the bodies and plans of a step; `contexts` are those of all styles.
 pub(crate) fn synchronize(agents: &mut Agents, contexts: &[SynthesisContext], dt_s: f32) {
-    for (index, body) in agents.bodies.iter().enumerate() {
+    for (index, (body, stature)) in agents.bodies.iter().zip(&agents.statures).enumerate() {
         let context = contexts.get(agents.styles[index] as usize).unwrap_or(&contexts[0]);
-        let moved_m: Vec2 = body.root.position_m - agents.positions_m[index];
-        agents.velocities_mps[index] = body.committed_mps(context).unwrap_or(moved_m / dt_s);
-        agents.positions_m[index] = body.root.position_m;
-        agents.facings_rad[index] = body.root.facing_rad;
+        let root = stature.root_of_crowd(body.root);
+        let moved_m: Vec2 = root.position_m - agents.positions_m[index];
+        let committed_mps = body.committed_mps(context).map(|committed_mps| stature.speed_factor() * committed_mps);
+        agents.velocities_mps[index] = committed_mps.unwrap_or(moved_m / dt_s);
+        agents.positions_m[index] = root.position_m;
+        agents.facings_rad[index] = root.facing_rad;
         agents.strafing_s[index] = agents.plans[index].strafing_s;
         agents.stepping_back_s[index] = agents.plans[index].stepping_back_s;
     }

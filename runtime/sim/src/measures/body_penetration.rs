@@ -54,6 +54,18 @@ struct CapsuleBody {
     bounds: Bounds,
 }
 
+/// A body of a frame.
+pub(crate) struct PosedBody<'a> {
+    /// Its root.
+    pub(crate) root: &'a Root,
+    /// Its joints in the root's frame, m.
+    pub(crate) joints: &'a Joints,
+    /// Its size, relative to the skeleton.
+    pub(crate) stature: f32,
+    /// Radii of the segments of the character that it wears, at the skeleton's size, m; none of a plain body.
+    pub(crate) character_radii_m: Option<&'a [f32]>,
+}
+
 impl BodyPenetration {
     /// No frames yet.
     pub(crate) fn new(skeleton: &Skeleton) -> Self {
@@ -70,14 +82,10 @@ impl BodyPenetration {
         }
     }
 
-    /// Adds one frame: every present agent's root, its joints in the root's frame, and the radii of the character that it
-    /// wears.
-    pub(crate) fn push<'a>(&mut self, agents: impl Iterator<Item = ((&'a Root, &'a Joints), Option<&'a [f32]>)>) {
+    /// Adds one frame: the bodies of all present agents.
+    pub(crate) fn push<'a>(&mut self, bodies: impl Iterator<Item = PosedBody<'a>>) {
         self.bodies.clear();
-        let body = |((root, joints), radii_m): ((&Root, &Joints), Option<&[f32]>)| {
-            CapsuleBody::new(&self.skeleton, radii_m.unwrap_or(&self.skeleton.segment_radii_m), root, joints)
-        };
-        self.bodies.extend(agents.map(body));
+        self.bodies.extend(bodies.map(|body| CapsuleBody::new(&self.skeleton, &body)));
         if self.order.len() != self.bodies.len() {
             self.order = (0..self.bodies.len()).collect();
         }
@@ -125,11 +133,13 @@ impl BodyPenetration {
 }
 
 impl CapsuleBody {
-    fn new(skeleton: &Skeleton, radii_m: &[f32], root: &Root, joints: &Joints) -> Self {
+    fn new(skeleton: &Skeleton, body: &PosedBody) -> Self {
+        let &PosedBody { root, joints, stature, character_radii_m } = body;
         let turn = Quat::from_rotation_z(root.facing_rad);
+        let (sized, radii_m) = (skeleton.sized(stature), character_radii_m.unwrap_or(&skeleton.segment_radii_m));
         let capsules = std::array::from_fn(|joint| {
-            let Segment { from_m, to_m } = bone(skeleton, joints, joint);
-            BoneCapsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, radii_m[joint])
+            let Segment { from_m, to_m } = bone(&sized, joints, joint);
+            BoneCapsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, stature * radii_m[joint])
         });
         let bounds = capsules.iter().map(|capsule: &BoneCapsule| capsule.bounds).fold(Bounds::EMPTY, Bounds::with);
         Self { position_m: root.position_m, capsules, bounds }
@@ -200,7 +210,12 @@ mod tests {
             let posed: Vec<(Root, Joints)> =
                 bodies.iter().map(|(root, pose)| (*root, pose.forward_kinematics(&skeleton))).collect();
             let mut found = BodyPenetration::new(&skeleton);
-            found.push(posed.iter().map(|(root, joints)| ((root, joints), None)));
+            found.push(posed.iter().map(|(root, joints)| PosedBody {
+                root,
+                joints,
+                stature: 1.0,
+                character_radii_m: None,
+            }));
             let pairs = (0..posed.len()).flat_map(|i| (i + 1..posed.len()).map(move |j| (i, j)));
             let depths_m: Vec<f32> = pairs.map(|(i, j)| brute_m(&skeleton, [&posed[i], &posed[j]])).collect();
             let (sum_m, greatest_m) = (depths_m.iter().sum::<f32>(), depths_m.iter().copied().fold(0.0, f32::max));

@@ -60,7 +60,9 @@ pub fn character_soles(recording: &Recording, character: &Character) -> Result<C
             teleported.for_each(|agent| feet.lift(agent.id.index()));
             roots.push(population, &pairs);
         }
-        agents.iter().filter(|agent| !roots.has_arrived(agent.id)).for_each(|agent| feet.push(agent));
+        for agent in agents.iter().filter(|agent| !roots.has_arrived(agent.id)) {
+            feet.push(agent, population.agents[agent.id.index()].stature);
+        }
         before.clone_from(&agents);
     }
     Ok(feet.finish(population.agents.len(), recording.frame_count()))
@@ -90,8 +92,8 @@ impl<'a> FeetOfCharacter<'a> {
             skeleton,
             soles: sole_vertices(character),
             transforms: Vec::new(),
-            own: PlantedSlide::new(skeleton, agents, dt_s),
-            crowd: PlantedSlide::new(skeleton, agents, dt_s),
+            own: PlantedSlide::new(agents, dt_s),
+            crowd: PlantedSlide::new(agents, dt_s),
             depth_m: 0.0,
             depth_sum_m: 0.0,
             crowd_depth_m: 0.0,
@@ -106,14 +108,14 @@ impl<'a> FeetOfCharacter<'a> {
         self.crowd.lift(index);
     }
 
-    fn push(&mut self, agent: &AgentFrame) {
+    fn push(&mut self, agent: &AgentFrame, stature: f32) {
         let joints = agent.pose.forward_kinematics(self.skeleton);
         let root_frame = RootFrame { position_m: Vec2::ZERO, forward: Vec2::X };
         self.fit.pose(self.skeleton, &joints, root_frame, &mut self.transforms);
-        let feet_m = [0, 1].map(|side| self.foot_points_m(side));
+        let feet_m = [0, 1].map(|side| self.foot_points_m(side).map(|point_m| stature * point_m));
         self.own.push_feet(agent.id.index(), agent, feet_m);
-        self.crowd.push_one(agent.id.index(), agent, &joints);
-        self.measure_depth(&joints);
+        self.crowd.push_one(agent.id.index(), agent, &self.skeleton.sized(stature), &joints.sized(stature));
+        self.measure_depth(&joints, stature);
         for (foot_m, contact) in feet_m.iter().zip(agent.contacts) {
             if contact >= crate::planning::PLANTED_CONTACT {
                 self.height_sum_m += f64::from(lowest_m(foot_m));
@@ -132,15 +134,15 @@ impl<'a> FeetOfCharacter<'a> {
             .map(|(joint, point_m)| self.transforms[joint].point_m(point_m))
     }
 
-    fn measure_depth(&mut self, joints: &Joints) {
+    fn measure_depth(&mut self, joints: &Joints, stature: f32) {
         let mesh = &self.fit.character.mesh;
-        let depth_m = |&vertex: &usize| -f64::from(mesh.position_m(vertex, &self.transforms).z);
+        let depth_m = |&vertex: &usize| -f64::from(stature * mesh.position_m(vertex, &self.transforms).z);
         let depth_m = self.soles.iter().map(depth_m).fold(0.0, f64::max);
         self.depth_m = self.depth_m.max(depth_m);
         self.depth_sum_m += depth_m;
         self.poses += 1;
         for side in 0..2 {
-            let crowd_m = -f64::from(lowest_m(&joints.sole_points_m(self.skeleton, side)));
+            let crowd_m = -f64::from(stature * lowest_m(&joints.sole_points_m(self.skeleton, side)));
             self.crowd_depth_m = self.crowd_depth_m.max(crowd_m);
         }
     }

@@ -7,7 +7,7 @@ use glam::Vec2;
 use motiondb::body::{Joints, Skeleton};
 use serde::Serialize;
 
-use crate::measures::body_penetration::BodyPenetration;
+use crate::measures::body_penetration::{BodyPenetration, PosedBody};
 use crate::measures::collision_rate::Collisions;
 use crate::measures::frame_pairs::FramePairs;
 use crate::measures::places::{MeasuredPlaces, PlaceMeasures};
@@ -117,7 +117,7 @@ pub struct Measuring {
     dt_s: f32,
     steps: usize,
     before: Vec<AgentFrame>,
-    /// Joints of every agent in the present frame, in the roots' frames.
+    /// Joints of every agent in the present frame, in the roots' frames, at the agent's stature.
     joints: Vec<Joints>,
     collisions: Collisions,
     roots: RootMeasures,
@@ -144,22 +144,23 @@ impl Measuring {
             collisions: Collisions::default(),
             roots: RootMeasures::new(scenario, population, start),
             states: StateVisits::new(scenario, start),
-            slide: PlantedSlide::new(skeleton, start.len(), dt_s),
+            slide: PlantedSlide::new(start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
             state_zones: StateZones::new(scenario),
             places: MeasuredPlaces::new(scenario, start, population.closed_doors(0)),
             character_radii_m: scenario.characters.iter().map(segment_radii_m).collect(),
         };
-        measuring.pose(start);
-        follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
+        measuring.pose(population, start);
+        let Self { skeleton, slide, roots, joints, .. } = &mut measuring;
+        follow_feet(slide, roots, skeleton, population, start, joints);
         measuring
     }
 
     /// Adds one step, given every present agent after it, in the order of ids, and a population that lists them.
     pub fn push(&mut self, population: &Population, after: &[AgentFrame]) {
         self.steps += 1;
-        self.pose(after);
+        self.pose(population, after);
         let frame = self.steps as u32;
         let life = |agent: &AgentFrame| &population.agents[agent.id.index()];
         let mut pairs = FramePairs::new(&self.before, after);
@@ -170,22 +171,28 @@ impl Measuring {
         self.collisions.push(&radii_m, &before_m, &after_m);
         let teleported = after.iter().filter(|agent| life(agent).is_teleported(frame));
         teleported.for_each(|agent| self.slide.lift(agent.id.index()));
-        follow_feet(&mut self.slide, &self.roots, after, &self.joints);
+        let Self { skeleton, slide, roots, joints, .. } = self;
+        follow_feet(slide, roots, skeleton, population, after, joints);
         self.roots.push(population, &pairs);
         self.states.push(after);
         let closed = population.closed_doors(frame);
         self.places.set_doors(&closed);
         self.places.push(frame, &pairs, after);
-        let radii_m = after.iter().map(|agent| {
+        let radii_m = |agent: &AgentFrame| {
             let character = life(agent).character?;
             self.character_radii_m.get(character as usize).filter(|radii_m| !radii_m.is_empty()).map(Vec::as_slice)
-        });
-        self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints).zip(radii_m));
+        };
+        self.bodies.push(after.iter().zip(&self.joints).map(|(agent, joints)| PosedBody {
+            root: &agent.root,
+            joints,
+            stature: life(agent).stature,
+            character_radii_m: radii_m(agent),
+        }));
         let held = after.iter().map(|agent| {
             let (own, radius_m) = (life(agent).spec.closed_zones, life(agent).wall_radius_m(frame));
             let state = usize::from(agent.state);
             let closed_zones = self.state_zones.for_walls(own, state, agent.root.position_m, radius_m);
-            HeldDisc { radius_m, closed_zones }
+            HeldDisc { radius_m, closed_zones, stature: life(agent).stature }
         });
         let held: Vec<HeldDisc> = held.collect();
         self.walls.set_doors(closed);
@@ -242,9 +249,11 @@ impl Measuring {
         }
     }
 
-    fn pose(&mut self, agents: &[AgentFrame]) {
+    fn pose(&mut self, population: &Population, agents: &[AgentFrame]) {
+        let stature = |agent: &AgentFrame| population.agents[agent.id.index()].stature;
+        let joints = |agent: &AgentFrame| agent.pose.forward_kinematics(&self.skeleton).sized(stature(agent));
         self.joints.clear();
-        self.joints.extend(agents.iter().map(|agent| agent.pose.forward_kinematics(&self.skeleton)));
+        self.joints.extend(agents.iter().map(joints));
     }
 }
 
@@ -270,10 +279,16 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
 }
 
 /// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.
-fn follow_feet(slide: &mut PlantedSlide, roots: &RootMeasures, agents: &[AgentFrame], joints: &[Joints]) {
-    for (agent, joints) in agents.iter().zip(joints) {
-        if !roots.has_arrived(agent.id) {
-            slide.push_one(agent.id.index(), agent, joints);
-        }
+fn follow_feet(
+    slide: &mut PlantedSlide,
+    roots: &RootMeasures,
+    skeleton: &Skeleton,
+    population: &Population,
+    agents: &[AgentFrame],
+    joints: &[Joints],
+) {
+    for (agent, joints) in agents.iter().zip(joints).filter(|(agent, _)| !roots.has_arrived(agent.id)) {
+        let index = agent.id.index();
+        slide.push_one(index, agent, &skeleton.sized(population.agents[index].stature), joints);
     }
 }

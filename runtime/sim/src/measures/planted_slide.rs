@@ -19,7 +19,6 @@ const CONTACT_MIN_S: f64 = 0.08;
 /// Measures every foot, frame by frame.
 #[derive(Debug)]
 pub struct PlantedSlide {
-    skeleton: Skeleton,
     dt_s: f64,
     /// `[left, right]` of each agent, by id.
     feet: Vec<[FootTrack; 2]>,
@@ -71,9 +70,8 @@ struct SlideSample {
 
 impl PlantedSlide {
     /// No frames yet; more agents may come.
-    pub fn new(skeleton: &Skeleton, agent_count: usize, dt_s: f32) -> Self {
+    pub fn new(agent_count: usize, dt_s: f32) -> Self {
         Self {
-            skeleton: skeleton.clone(),
             dt_s: f64::from(dt_s),
             feet: vec![Default::default(); agent_count],
             samples: 0,
@@ -85,18 +83,19 @@ impl PlantedSlide {
     }
 
     /// Adds one frame: every agent, and its joints in its root's frame, in index order.
-    pub fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
+    pub fn push(&mut self, skeleton: &Skeleton, agents: &[AgentFrame], joints: &[Joints]) {
         for (index, (agent, joints)) in agents.iter().zip(joints).enumerate() {
-            self.push_one(index, agent, joints);
+            self.push_one(index, agent, skeleton, joints);
         }
     }
 
-    /// Adds one frame of one agent. An agent that is no longer added counts up to its last frame.
-    pub fn push_one(&mut self, index: usize, agent: &AgentFrame, joints: &Joints) {
+    /// Adds one frame of one agent, given its skeleton and its joints in its root's frame. An agent that is no longer
+    /// added counts up to its last frame.
+    pub fn push_one(&mut self, index: usize, agent: &AgentFrame, skeleton: &Skeleton, joints: &Joints) {
         if index >= self.feet.len() {
             self.feet.resize(index + 1, Default::default());
         }
-        for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
+        for (side, foot) in foot_frames(skeleton, agent, joints).into_iter().enumerate() {
             self.foot_frames += 1;
             self.planted_foot_frames += usize::from(foot.planted);
             let ended = self.feet[index][side].push(foot, self.dt_s);

@@ -45,14 +45,16 @@ fn slide_cm_s(
 ) -> Result<Option<f64>, RecordingError> {
     let (skeleton, population) = (recording.header().skeleton(), recording.population());
     let dt_s = f64::from(recording.header().scenario.dt_s);
-    let mut slide = PlantedSlide::new(skeleton, population.agents.len(), spacing_s as f32);
+    let mut slide = PlantedSlide::new(population.agents.len(), spacing_s as f32);
     let mut before_s = f64::NEG_INFINITY;
     for time_s in times_s {
         for agent in &sample(recording, time_s)? {
             if jumped(recording, agent, [before_s / dt_s, time_s / dt_s]) {
                 slide.lift(agent.id.index());
             }
-            slide.push_one(agent.id.index(), agent, &agent.pose.forward_kinematics(skeleton));
+            let stature = population.agents[agent.id.index()].stature;
+            let joints = agent.pose.forward_kinematics(skeleton).sized(stature);
+            slide.push_one(agent.id.index(), agent, &skeleton.sized(stature), &joints);
         }
         before_s = time_s;
     }

@@ -27,6 +27,8 @@ pub(crate) struct HeldDisc {
     pub(crate) radius_m: f32,
     /// Zones that the agent does not enter, by bits.
     pub(crate) closed_zones: u32,
+    /// Size of the body, relative to the skeleton.
+    pub(crate) stature: f32,
 }
 
 /// Counts contacts, frame by frame.
@@ -94,12 +96,12 @@ impl WallContact {
     pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints], held: &[HeldDisc]) {
         self.agent_frames += agents.len();
         let mut near = Vec::new();
-        for ((agent, joints), &HeldDisc { radius_m, closed_zones }) in agents.iter().zip(joints).zip(held) {
+        for ((agent, joints), &HeldDisc { radius_m, closed_zones, stature }) in agents.iter().zip(joints).zip(held) {
             let walls = self.zone_walls.of(closed_zones).unwrap_or(&self.obstacles);
             walls.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
             let Some(nearest) = near.first() else { continue };
             self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
-            let depth_m = depth_m(&self.skeleton, walls, &agent.root, joints, &near);
+            let depth_m = depth_m(&self.skeleton.sized(stature), walls, &agent.root, joints, &near);
             self.touching_bodies += usize::from(depth_m > 0.0);
             self.deep_bodies += usize::from(depth_m > DEEP_M);
             self.greatest_depth_m = self.greatest_depth_m.max(depth_m);
@@ -159,7 +161,7 @@ mod tests {
         contact.push(
             &[frame],
             &[frame.pose.forward_kinematics(&db.skeleton)],
-            &[HeldDisc { radius_m: 0.2, closed_zones: 0 }],
+            &[HeldDisc { radius_m: 0.2, closed_zones: 0, stature: 1.0 }],
         );
         contact.finish()
     }
@@ -187,7 +189,7 @@ mod tests {
         let shares = [0, 1].map(|closed_zones| {
             let mut contact = WallContact::new(&db.skeleton, &scenario);
             let joints = frame.pose.forward_kinematics(&db.skeleton);
-            contact.push(&[frame], &[joints], &[HeldDisc { radius_m: 0.2, closed_zones }]);
+            contact.push(&[frame], &[joints], &[HeldDisc { radius_m: 0.2, closed_zones, stature: 1.0 }]);
             contact.finish().deep_body_share
         });
         assert_eq!(shares, [0.0, 1.0]);

@@ -51,6 +51,7 @@ use crate::world::one_way::OneWayZone;
 ///     priorities: None,
 ///     constraints: &MotionConstraints::new(&hull),
 ///     own_constraints: None,
+///     speed_factors: None,
 ///     dt_s: 0.1,
 ///     bodies: true,
 /// };
@@ -92,6 +93,8 @@ pub struct WorldView<'a> {
     pub constraints: &'a MotionConstraints,
     /// Constraints of the agents whose bodies move in another style; none where there are no such agents.
     pub own_constraints: Option<OwnConstraints<'a>>,
+    /// Velocities of each body, divided by those of a body of the skeleton's size. None: all are 1.
+    pub speed_factors: Option<&'a [f32]>,
     /// Time step, s.
     pub dt_s: f32,
     /// Whether bodies carry the plans out, which respond later than at the end of the step.
@@ -127,6 +130,11 @@ impl<'a> WorldView<'a> {
     pub fn walls_of(&self, agent: usize) -> &'a Obstacles {
         let own = self.own_walls.and_then(|own| own.zone_walls.of(own.closed_zones[agent]));
         own.unwrap_or(self.obstacles)
+    }
+
+    /// Velocities of an agent's body, divided by those of a body of the skeleton's size.
+    pub(crate) fn speed_factor(&self, agent: usize) -> f32 {
+        self.speed_factors.map_or(1.0, |factors| factors[agent])
     }
 
     /// The half-planes of the one-way zones that hold an agent.

@@ -23,6 +23,7 @@ use crate::recording::header::Header;
 use crate::recording::reader::Recording;
 use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario};
+use crate::synthesis::Stature;
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
 use crate::world::one_way::OneWayZone;
@@ -72,6 +73,7 @@ pub struct RecordedStep<'a> {
     /// The database by which each body moves.
     databases: Vec<u32>,
     priorities: Option<Vec<f32>>,
+    speed_factors: Option<Vec<f32>>,
     walls: Arc<Walls>,
 }
 
@@ -132,6 +134,9 @@ impl<'a> Replay<'a> {
         let priority =
             |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
         let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
+        let has_statures = before.iter().any(|agent| life(agent).stature != 1.0);
+        let speed_factor = |agent: &AgentFrame| Stature::new(life(agent).stature).speed_factor();
+        let speed_factors = has_statures.then(|| before.iter().map(speed_factor).collect());
         let closed_zones = |(before, after): (&AgentFrame, &AgentFrame)| {
             let (own, radius_m) = (life(before).spec.closed_zones, life(before).wall_radius_m(number + 1));
             self.state_zones.for_walls(own, usize::from(after.state), before.root.position_m, radius_m)
@@ -145,13 +150,14 @@ impl<'a> Replay<'a> {
             velocities_mps,
             facings_rad: before.iter().map(|agent| agent.root.facing_rad).collect(),
             preferred_mps: after.iter().map(|agent| agent.preferred_mps).collect(),
-            stances: before.iter().map(|agent| self.stance(agent)).collect(),
+            stances: before.iter().map(|agent| self.stance(agent, life(agent).stature)).collect(),
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
             closed_zones: before.iter().zip(&after).map(closed_zones).collect(),
             databases: before.iter().map(|agent| life(agent).database).collect(),
             priorities,
+            speed_factors,
             walls: self.walls(number + 1),
             before,
             after,
@@ -176,10 +182,10 @@ impl<'a> Replay<'a> {
         to.iter().map(|to| moved_m(to) / dt_s).collect()
     }
 
-    fn stance(&self, agent: &AgentFrame) -> Stance {
+    fn stance(&self, agent: &AgentFrame, stature: f32) -> Stance {
         let skeleton = self.header().skeleton();
         let joints = agent.pose.forward_kinematics(skeleton);
-        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
+        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side).map(|point_m| stature * point_m));
         Stance::on_soles(&soles_m, agent.root.forward(), agent.contacts, |_| agent.time_to_landing_s)
     }
 }
@@ -205,6 +211,11 @@ impl RecordedStep<'_> {
         self.replay.recording.population().spec(self.before[agent].id)
     }
 
+    /// Velocities of an agent's body, by index, divided by those of a body of the skeleton's size.
+    pub fn speed_factor(&self, agent: usize) -> f32 {
+        self.world().speed_factor(agent)
+    }
+
     /// The view that the planner read.
     pub fn world(&self) -> WorldView<'_> {
         let Scenario { coupling, dt_s, .. } = self.header().scenario;
@@ -227,6 +238,7 @@ impl RecordedStep<'_> {
             constraints: &self.replay.constraints[0],
             own_constraints: (self.replay.constraints.len() > 1)
                 .then_some(OwnConstraints { styles: &self.databases, constraints: &self.replay.constraints }),
+            speed_factors: self.speed_factors.as_deref(),
             dt_s,
             bodies: coupling.plans_for_bodies(),
         }

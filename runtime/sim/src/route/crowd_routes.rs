@@ -11,7 +11,7 @@ use crate::behaviour::{Area, GoalRef};
 use crate::route::field::{RouteField, RouteGoal, RoutePosition, RouteStep, shortest_route};
 use crate::route::mesh::{RouteError, RouteMesh};
 use crate::scenario::places::state_zones::StateZones;
-use crate::scenario::{AgentSpec, Scenario};
+use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 
 /// Agents from which on a waypoint has a field.
 const SHARED_MIN: usize = 4;
@@ -116,7 +116,8 @@ impl NextCorner {
 }
 
 impl CrowdRoutes {
-    /// Routes for the agents and sources of a scenario, around its walls; all doors are open.
+    /// Routes for the agents and sources of a scenario, around its walls; all doors are open. A scenario without agents
+    /// has the mesh of an agent by default.
     ///
     /// # Errors
     /// If a coordinate is out of range.
@@ -139,7 +140,9 @@ impl CrowdRoutes {
             let sets = source.closed_zone_sets().into_iter();
             sets.map(move |set| ((source.wall_radius_m, set), &source.goals_m, SHARED_MIN))
         });
-        let in_states = agents.chain(sources).flat_map(|((wall_radius_m, own), goals_m, count)| {
+        let no_goals = Vec::new();
+        let plan = scenario.is_plan().then_some(((WALL_RADIUS_M, 0), &no_goals, 0));
+        let in_states = agents.chain(sources).chain(plan).flat_map(|((wall_radius_m, own), goals_m, count)| {
             let sets = state_zones.route_sets(own).into_iter();
             sets.map(move |set| (MeshClass::new(wall_radius_m, set), goals_m, count))
         });

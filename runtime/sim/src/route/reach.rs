@@ -11,7 +11,7 @@ use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
 use crate::route::one_way_reach::{SEARCHES_MAX, check_directions};
 use crate::scenario::places::state_zones::StateZones;
-use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart, SourceSpec};
+use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart, SourceSpec, WALL_RADIUS_M};
 use crate::world::obstacles::Obstacles;
 
 /// Overlap of a start and a wall that is taken for rounding, m: the grid of walkable ground.
@@ -68,14 +68,16 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_areas(scenario, &walls, &meshes)
 }
 
-/// The passages that are closed, for every class of wall radii among the agents; none without walls.
+/// The passages that are closed, for every class of wall radii among the agents, or for that of an agent by default where
+/// there are no agents; none without walls.
 pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
     let state_zones = StateZones::new(scenario);
     let of_source = |source: &SourceSpec| {
         source.closed_zone_sets().into_iter().map(|set| (source.wall_radius_m, set)).collect::<Vec<_>>()
     };
     let of_agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, agent.closed_zones));
-    let found = of_agents.chain(scenario.sources.iter().flat_map(of_source));
+    let of_plan = scenario.is_plan().then_some((WALL_RADIUS_M, 0));
+    let found = of_agents.chain(scenario.sources.iter().flat_map(of_source)).chain(of_plan);
     let in_states = |(wall_radius_m, own): (f32, u32)| {
         state_zones.route_sets(own).into_iter().map(move |set| MeshClass::new(wall_radius_m, set)).collect::<Vec<_>>()
     };

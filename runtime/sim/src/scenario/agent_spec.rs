@@ -48,6 +48,9 @@ pub struct AgentSpec {
     /// Right of way: an agent leaves more of the avoiding to one of a lower priority, all of it from a difference of 1.
     #[serde(default, skip_serializing_if = "is_0")]
     pub priority: f32,
+    /// Size of the body, relative to the database's skeleton.
+    #[serde(default = "of_skeleton", skip_serializing_if = "is_of_skeleton")]
+    pub stature: f32,
     /// The characters that the agent may wear: bit k stands for the k-th of the scenario; 0: all.
     #[serde(default, skip_serializing_if = "wears_any")]
     pub characters: u64,
@@ -69,6 +72,17 @@ pub(crate) fn has_no_style(style: &u32) -> bool {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
 pub(crate) fn is_stated(wears_radius: &bool) -> bool {
     !*wears_radius
+}
+
+/// The stature of a body of the skeleton's size.
+pub(crate) fn of_skeleton() -> f32 {
+    1.0
+}
+
+/// Whether a body is as large as the skeleton; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn is_of_skeleton(stature: &f32) -> bool {
+    *stature == 1.0
 }
 
 /// Whether no zone is closed to an agent; recordings leave it out.
@@ -117,6 +131,7 @@ impl Default for AgentSpec {
             pre_movement_s: 0.0,
             closed_zones: 0,
             priority: 0.0,
+            stature: 1.0,
             characters: 0,
             wears_radius: false,
             style: 0,

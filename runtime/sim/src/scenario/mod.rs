@@ -37,7 +37,7 @@ pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{
     MotionSource, agent_files, agents_of_lines, character_files, check_styles, fault_of_lines, names_motion, parse,
-    read,
+    read, read_plan,
 };
 pub use places::barred_goals::BarredGoals;
 pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec, KeyLine};

@@ -20,6 +20,9 @@ pub struct Profile {
     pub radius_m: Option<Distribution>,
     /// Time for which an agent stands before it begins, s; none: that of the table.
     pub pre_movement_s: Option<Distribution>,
+    /// Size of the body; none: that of the table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stature: Option<DrawnStature>,
     /// Zones that the agents do not enter, by bits as in [`AgentSpec`](crate::AgentSpec).
     #[serde(skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
@@ -32,6 +35,17 @@ pub struct Profile {
     /// Style of the agents' motion, as in [`AgentSpec`](crate::AgentSpec); 0: that of the table.
     #[serde(skip_serializing_if = "has_no_style")]
     pub style: u32,
+}
+
+/// A size of bodies, relative to the database's skeleton, and what follows it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DrawnStature {
+    /// The size.
+    pub size: Distribution,
+    /// Whether the radius grows with the size, because the scenario states none.
+    pub scales_radius: bool,
+    /// Whether the preferred speed grows with the root of the size, because the scenario states none.
+    pub scales_speed: bool,
 }
 
 /// The numbers of one agent.
@@ -47,6 +61,8 @@ pub struct DrawnNumbers {
     pub closed_zones: u32,
     /// Right of way of the agent.
     pub priority: f32,
+    /// Size of the body, relative to the database's skeleton.
+    pub stature: f32,
     /// Characters that the agent may wear, by bits.
     pub characters: u64,
     /// Whether the radius is that of the character that the agent wears.
@@ -61,19 +77,32 @@ impl DrawnNumbers {
         let indices: Vec<usize> = (0..profiles.len()).collect();
         let Some(index) = draw(&indices, |index| profiles[index].weight, random) else { return self };
         let Profile {
-            preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters, style, ..
-        } = profiles[index];
-        // Every number takes a generator of its own, so that a profile without one changes no other.
-        let mut number = |drawn: Option<Distribution>, otherwise: f32| {
-            let random = &mut SplitMix64::new(random.next_u64(), 0);
-            drawn.map_or(otherwise, |drawn| drawn.draw(random))
-        };
-        Self {
-            preferred_speed_mps: number(preferred_speed_mps, self.preferred_speed_mps),
-            radius_m: number(radius_m, self.radius_m),
-            pre_movement_s: number(pre_movement_s, self.pre_movement_s),
+            preferred_speed_mps,
+            radius_m,
+            pre_movement_s,
+            stature,
             closed_zones,
             priority,
+            characters,
+            style,
+            ..
+        } = profiles[index];
+        // Every number takes a generator of its own, so that a profile without one changes no other.
+        let [of_speed, of_radius, of_time] = std::array::from_fn(|_| random.next_u64());
+        let number = |drawn: Option<Distribution>, otherwise: f32, seed: u64, stream: u64| {
+            drawn.map_or(otherwise, |drawn| drawn.draw(&mut SplitMix64::new(seed, stream)))
+        };
+        let size = number(stature.map(|stature| stature.size), self.stature, of_speed, 1);
+        let growth = |grows: bool, growth: f32| if grows { growth } else { 1.0 };
+        let radius_growth = growth(stature.is_some_and(|stature| stature.scales_radius), size);
+        let speed_growth = growth(stature.is_some_and(|stature| stature.scales_speed), libm::sqrtf(size));
+        Self {
+            preferred_speed_mps: speed_growth * number(preferred_speed_mps, self.preferred_speed_mps, of_speed, 0),
+            radius_m: radius_growth * number(radius_m, self.radius_m, of_radius, 0),
+            pre_movement_s: number(pre_movement_s, self.pre_movement_s, of_time, 0),
+            closed_zones,
+            priority,
+            stature: size,
             characters,
             wears_radius: self.wears_radius && radius_m.is_none(),
             style: if style == 0 { self.style } else { style },

@@ -27,6 +27,8 @@ pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Time for which an agent stands before it begins, s: up to a day.
 pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
+/// Size of a body, relative to the database's skeleton: from a child of two years to a giant.
+pub(crate) const STATURE: RangeInclusive<f32> = 0.4..=1.5;
 /// Right of way; only differences count, up to 1.
 pub(crate) const PRIORITY: RangeInclusive<f32> = -100.0..=100.0;
 /// Distance between members of a group that walk abreast, m: from shoulder to shoulder to two arms apart.
@@ -148,6 +150,7 @@ pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Scenari
     check_facing(part, agent.facing_rad)?;
     within(part, "pre_movement_s", agent.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
     within(part, "priority", agent.priority, &PRIORITY, REMOVE)?;
+    within(part, "stature", agent.stature, &STATURE, REMOVE)?;
     agent.group.map_or(Ok(()), |group| check_spacing(part, group.spacing_m))?;
     check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, has_no_style, is_0, is_stated};
+use crate::scenario::agent_spec::{
+    AgentSpec, AtGoal, enters_all, follows_path, has_no_style, is_0, is_of_skeleton, is_stated, of_skeleton,
+};
 use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::due_times::DueTimes;
 use crate::scenario::profile::{DrawnNumbers, Profile};
@@ -74,6 +76,9 @@ pub struct SourceSpec {
     /// Right of way of the agents, as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "is_0")]
     pub priority: f32,
+    /// Size of the bodies, relative to the database's skeleton.
+    #[serde(default = "of_skeleton", skip_serializing_if = "is_of_skeleton")]
+    pub stature: f32,
     /// Characters that the agents may wear, by bits as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "wears_any")]
     pub characters: u64,
@@ -113,6 +118,7 @@ impl Default for SourceSpec {
             profiles: Vec::new(),
             closed_zones: 0,
             priority: 0.0,
+            stature: 1.0,
             characters: 0,
             wears_radius: false,
             style: 0,
@@ -139,6 +145,7 @@ impl SourceSpec {
             pre_movement_s: self.pre_movement_s,
             closed_zones: self.closed_zones,
             priority: self.priority,
+            stature: self.stature,
             characters: self.characters,
             wears_radius: self.wears_radius,
             style: self.style,
@@ -155,6 +162,7 @@ impl SourceSpec {
             pre_movement_s: self.pre_movement_s,
             closed_zones: self.closed_zones,
             priority: self.priority,
+            stature: self.stature,
             characters: self.characters,
             wears_radius: self.wears_radius,
             style: self.style,
@@ -167,6 +175,7 @@ impl SourceSpec {
             pre_movement_s: numbers.pre_movement_s,
             closed_zones: numbers.closed_zones,
             priority: numbers.priority,
+            stature: numbers.stature,
             characters: numbers.characters,
             wears_radius: numbers.wears_radius,
             style: numbers.style,

@@ -109,6 +109,11 @@ impl Scenario {
             && !self.zones.iter().any(|zone| zone.is_closed || zone.one_way_deg.is_some())
     }
 
+    /// Whether there are neither agents nor sources: a ground alone.
+    pub fn is_plan(&self) -> bool {
+        self.agents.is_empty() && self.sources.is_empty()
+    }
+
     /// Starts, goals and corners of areas, which open ground must contain, m.
     pub(crate) fn points_m(&self) -> Vec<Vec2> {
         let agents = self.agents.iter().flat_map(|agent| [agent.position_m].into_iter().chain(agent.goals_m.clone()));

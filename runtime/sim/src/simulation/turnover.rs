@@ -161,6 +161,7 @@ impl Simulation {
         let id = AgentId::from(self.population.agents.len());
         self.has_groups |= spec.group.is_some();
         self.has_priorities |= spec.priority != 0.0;
+        self.has_statures |= spec.stature != 1.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
         self.agents.push(id, &spec, &self.scenario, context_of(&self.contexts, spec.style));
         let character = self.scenario.character_of(id.0, &spec);

@@ -36,7 +36,7 @@
 //!
 //! Each chapter depends only on those before it: `mode`, `params`, `time_step` (constants and options only), `traits`,
 //! [`pose`], [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, then `advance`,
-//! `synthesize` and `walk_alone`.
+//! `synthesize`, `walk_alone` and `stature` (bodies of other sizes).
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
 //! `LookAt`.
@@ -57,6 +57,7 @@ pub(crate) mod mode;
 pub(crate) mod params;
 pub mod pose;
 pub mod semi_procedural;
+pub mod stature;
 pub(crate) mod synthesize;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -68,5 +69,6 @@ pub use body::{Body, BodyOutput};
 pub use library::SynthesisContext;
 pub use mode::{Mode, Modes};
 pub use params::{HmsParams, Transition};
+pub use stature::Stature;
 pub use time_step::{INERTIA_DURATION_S, TimeStep};
 pub use traits::Traits;

@@ -43,7 +43,7 @@ fn agent_faults_are_shown_at_their_lines() {
     let agents = "{ file = \"a.txt\" }, { at_m = [9, 9], goals_m = [[5, 0]] }, { file = \"b.txt\" }";
     let two = "0 0 5 0\n# x\n0 1 5 1\n";
     check(agents, "0 0 5 0\n# x\n0 0.2 5 1\n", "0 5 5 5", "a.txt", "0 0.2 5 1", "agents 0 and 1 overlap");
-    check(agents, two, "\n0 5 5 5\n0 7 21 21 # in", "b.txt", "0 7 21 21 # in", "a goal of agent 4 lies inside");
+    check(agents, two, "\n0 5 5 5\n0 7 21 21 # in", "b.txt", "0 7 21 21 # in", "of agent 4 lies inside");
     check(agents, "", "\n0 5 5 5\n21 21 1 1", "b.txt", "21 21 1 1", "agent 2 starts inside obstacle 0");
     // A wrong key of the table is shown in the table.
     let broad = "{ file = \"b.txt\", radius_m = 3 }";

@@ -95,12 +95,7 @@ fn agents_start_apart_from_each_other_and_from_obstacles() {
         second,
         "agent 0 overlaps obstacle 0 by 0.05 m",
     );
-    check_rejected(
-        "goal",
-        &with_obstacle("[[4, -1], [6, -1], [6, 2]]"),
-        second,
-        "a goal of agent 0 lies inside obstacle 0",
-    );
+    check_rejected("goal", &with_obstacle("[[4, -1], [6, -1], [6, 2]]"), second, "of agent 0 lies inside obstacle 0");
     let broad = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = 0.6, wall_radius_m = 0.6 }";
     check_rejected(
         "goal_beside",

@@ -3,14 +3,14 @@
 use fbcrowd_sim::scenario::{MarkingColour, MarkingShape, ScenarioError, read};
 use glam::Vec2;
 
-use crate::support::{BLOCK, HEAD, ONE, scenario, write};
+use crate::support::{BLOCK, HEAD, ONE, check_at_table_or_key, scenario, write};
 
-/// Checks that reading fails at a line, with a message that contains these words.
+/// Checks that reading fails at the table on a line, or at a key of it, with a message that contains these words.
 fn check_rejected(test: &str, text: &str, line: usize, message: &str) {
     match read(&write(test, text)) {
         Err(ScenarioError::Invalid(invalid)) => {
             assert!(invalid.message.contains(message), "{}", invalid.message);
-            assert_eq!(invalid.line(), line, "{}", invalid.message);
+            check_at_table_or_key(&invalid, line);
         }
         other => panic!("{message} expected, found {other:?}"),
     }

@@ -34,3 +34,10 @@ pub(crate) fn check_points_at(invalid: &Invalid, part: &str, message: &str) {
     assert_eq!(&invalid.text[invalid.span.clone()], part, "{invalid}");
     assert!(!invalid.help.is_empty());
 }
+
+/// Checks that a fault is shown at the line of its table, or at the key of the table that the message names first.
+pub(crate) fn check_at_table_or_key(invalid: &Invalid, table_line: usize) {
+    let line = invalid.text.lines().nth(invalid.line() - 1).unwrap();
+    let is_named = line.split_once(" = ").is_some_and(|(key, _)| invalid.message.starts_with(&format!("{key} ")));
+    assert!(invalid.line() == table_line || invalid.line() > table_line && is_named, "{invalid}");
+}

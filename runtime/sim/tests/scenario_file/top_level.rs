@@ -86,7 +86,7 @@ fn numbers_out_of_range_are_shown_at_their_position() {
     check_rejected("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
     check_rejected("no_agents", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
     for view in ["width = 0", "height = 100000", "width_m = nan", "frame_rate_hz = 0.0"] {
-        check_rejected("picture", &format!("{HEAD}{ONE}[view]\n{view}"), "[view]", "not between");
+        check_rejected("picture", &format!("{HEAD}{ONE}[view]\n{view}"), view, "not between");
     }
 }
 

@@ -149,11 +149,11 @@ impl BodyStep {
 impl QualityFigures {
     /// Adds the slide of all bodies in an interval.
     fn feet(&mut self, bodies: &[&[BodyStep]], skeleton: &Skeleton, dt_s: f32) {
-        let mut slide = PlantedSlide::new(skeleton, bodies.len(), dt_s);
+        let mut slide = PlantedSlide::new(bodies.len(), dt_s);
         for step in 0..bodies.first().map_or(0, |steps| steps.len()) {
             let frames: Vec<_> = bodies.iter().map(|steps| steps[step].frame).collect();
             let joints: Vec<_> = bodies.iter().map(|steps| steps[step].joints).collect();
-            slide.push(&frames, &joints);
+            slide.push(skeleton, &frames, &joints);
         }
         let found = slide.finish();
         let slide_cm_s = found.slide_cm_s.unwrap_or(0.0);

@@ -25,6 +25,15 @@ fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {
     Scenario { planner, duration_s, ..scenario }
 }
 
+/// The crossing with bodies of many sizes.
+fn with_children(mut scenario: Scenario) -> Scenario {
+    scenario.name = "children".into();
+    for (index, agent) in scenario.agents.iter_mut().enumerate() {
+        agent.stature = 0.5 + 0.05 * (index % 14) as f32;
+    }
+    scenario
+}
+
 fn recorded(db: &Arc<MotionDb>, scenario: Scenario) -> Recording {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join(format!("replay_{}_{:?}_{}.fbrec", scenario.name, scenario.planner, scenario.duration_s));
@@ -90,6 +99,11 @@ fn every_recorded_step_is_planned_again_alike() {
         assert_eq!(recording.population().agents.iter().any(|life| life.removed.is_some()), leaves);
         check(&recording);
     }
+}
+
+#[test]
+fn bodies_of_many_sizes_are_planned_again_alike() {
+    check(&recorded(&Arc::new(bundled()), with_children(scenario("crossing", Planner::Mcn, 14.0))));
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn walk(db: &MotionDb, mut observe: impl FnMut(&Root, &BodyOutput)) -> FootSlide
         SynthesisContext::new(Arc::new(db.clone()), HmsParams { modes: Modes::Blending, ..HmsParams::default() });
     let start = |index: usize| Body::standing(&context, Root::default(), index as f32 / 8.0);
     let mut bodies: Vec<Body> = (0..8).map(|index| start(index).0).collect();
-    let mut slide = PlantedSlide::new(&db.skeleton, bodies.len(), DT_S);
+    let mut slide = PlantedSlide::new(bodies.len(), DT_S);
     let time_step = TimeStep::new(DT_S);
     for step in 0..(SECONDS / DT_S) as usize {
         let frames = bodies.iter_mut().map(|body| {
@@ -66,7 +66,7 @@ fn walk(db: &MotionDb, mut observe: impl FnMut(&Root, &BodyOutput)) -> FootSlide
         });
         let frames: Vec<AgentFrame> = frames.collect();
         let joints: Vec<_> = frames.iter().map(|frame| frame.pose.forward_kinematics(&db.skeleton)).collect();
-        slide.push(&frames, &joints);
+        slide.push(&db.skeleton, &frames, &joints);
     }
     slide.finish()
 }

@@ -44,6 +44,12 @@ pub(crate) fn slots_of_roles(
         for (role, node) in nodes_of_roles(table, pose.slot_of.len())? {
             slots[role.index()] = Some(pose.slot_of[node]);
         }
+        let known = slots.map(|slot| kept.binary_search(&slot?).ok());
+        if rig::check_known(&clip(pose, &kept), &known).map_err(of_character)? {
+            notes.push(CharacterNote::MirroredNames);
+            slots = Joint::ALL.map(|role| slots[role.mirrored().index()]);
+        }
+        check_directions(pose, &slots)?;
         return Ok((slots, RolesFrom::Vrm));
     }
     let clip = clip(pose, &kept);
@@ -99,30 +105,39 @@ fn of_character(reason: RejectionReason) -> CharacterReason {
             CharacterReason::NoArms { legs: spans.join(" and ") }
         }
         RejectionReason::NotUpright { trunk_deg } => CharacterReason::FourLegs { trunk_deg },
+        RejectionReason::ManifestContradicted { problem, .. } => CharacterReason::BrokenLimb { problem },
         other => CharacterReason::File(other),
     }
 }
 
 /// Checks that the legs are no ears: by their names, and by their direction in the world at rest.
 fn check_legs(pose: &BindPose, slots: &SlotMap) -> Result<(), CharacterReason> {
-    let thighs = Joint::THIGHS.map(|thigh| slots[thigh.index()].unwrap_or(0));
-    let [first, second] = thighs.map(|slot| format!("`{}`", pose.names[slot]));
-    let not_legs = |problem| Err(CharacterReason::NotLegs { first, second, problem });
     let is_helper = |joint: Joint| {
         let name = &pose.names[slots[joint.index()].unwrap_or(0)];
         joint_names::hints(name).parts.contains(&BodyPart::Helper)
     };
     if Joint::THIGHS.into_iter().chain(Joint::SHANKS).any(is_helper) {
-        return not_legs("are named as ears, tails or helpers are");
+        return Err(not_legs(pose, slots, "are named as ears, tails or helpers are"));
     }
+    check_directions(pose, slots)
+}
+
+/// Checks that the legs do not stand upwards in the world at rest.
+fn check_directions(pose: &BindPose, slots: &SlotMap) -> Result<(), CharacterReason> {
     let world_m = |joint: Joint| pose.world[slots[joint.index()].unwrap_or(0)].w_axis.truncate();
     for side in 0..2 {
         let leg_m: DVec3 = world_m(Joint::THIGHS[side]) - world_m(Joint::FEET[side]);
         if leg_m.y < HIPS_OVER_ANKLES_MIN * leg_m.length() {
-            return not_legs("stand upwards");
+            return Err(not_legs(pose, slots, "stand upwards"));
         }
     }
     Ok(())
+}
+
+fn not_legs(pose: &BindPose, slots: &SlotMap, problem: &'static str) -> CharacterReason {
+    let thighs = Joint::THIGHS.map(|thigh| slots[thigh.index()].unwrap_or(0));
+    let [first, second] = thighs.map(|slot| format!("`{}`", pose.names[slot]));
+    CharacterReason::NotLegs { first, second, problem }
 }
 
 /// Thighs may hang from a root beside the hips. The joint on the spine that is named hips or pelvis is the pelvis then.

@@ -87,6 +87,12 @@ pub enum CharacterReason {
         /// What is wrong.
         problem: &'static str,
     },
+    /// A bone table of VRM names joints of a limb that do not hang from each other.
+    #[error("its VRM bone table is wrong: {problem}; assign the bones of each limb from the trunk outwards")]
+    BrokenLimb {
+        /// Which joint does not hang from which.
+        problem: String,
+    },
     /// No two limbs have hip, knee and ankle.
     #[error(
         "no human legs: no two mirrored limbs with hip, knee and ankle among the joints; name the joints \

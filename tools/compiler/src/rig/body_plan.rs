@@ -205,6 +205,13 @@ pub(crate) fn leg_sides(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> Le
     LegSides { are_swapped: (named[0] == Side::Right) != contradict_names, contradict_names }
 }
 
+/// Whether the first leg of a pair, which is said to be the left one, stands on the right: the feet point backward.
+pub(crate) fn are_feet_backward(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> bool {
+    let tips = legs.limbs.each_ref().map(|limb| toe_tip(rig, limb));
+    leftness(rig, legs, arms, |frame, leg| toe_direction(rig, frame, &legs.limbs[leg], tips[leg]))
+        < CONTRADICTING_COSINE
+}
+
 /// Cosine between up × forward and the line from the second to the first leg: 1 where the first leg is the left one.
 /// `forward` is the forward direction of a frame and a leg.
 fn leftness(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair, forward: impl Fn(usize, usize) -> DVec3) -> f64 {

@@ -48,6 +48,15 @@ pub(crate) fn find_roles_by_name(clip: &SourceClip) -> Result<Roles, RejectionRe
     role_search::search_by_name(clip)
 }
 
+/// Checks the roles that a file states itself. Returns whether left and right are swapped.
+///
+/// # Errors
+/// Why the roles cannot be true.
+pub(crate) fn check_known(clip: &SourceClip, known: &JointMap) -> Result<bool, RejectionReason> {
+    check_size(clip)?;
+    role_search::check_known(clip, known)
+}
+
 /// Checks that a skeleton is no larger than the search for roles, which compares many pairs of joints, can handle.
 ///
 /// # Errors

@@ -64,6 +64,20 @@ fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReaso
     Ok(roles)
 }
 
+/// Checks that the stated limbs hang together and that the trunk stands over the legs. Returns whether left and right are
+/// swapped: the feet point backward.
+///
+/// # Errors
+/// [`RejectionReason::ManifestContradicted`], [`RejectionReason::NotUpright`].
+pub(crate) fn check_known(clip: &SourceClip, known: &JointMap) -> Result<bool, RejectionReason> {
+    let rig = SourceRig::new(clip);
+    let (Some(legs), Some(arms)) = (known_pair(&rig, known, LEGS)?, known_pair(&rig, known, ARMS)?) else {
+        return Ok(false);
+    };
+    check_upright(&rig, &legs, &arms)?;
+    Ok(body_plan::are_feet_backward(&rig, &legs, &arms))
+}
+
 /// The pair of limbs whose six joints are known.
 fn known_pair(rig: &SourceRig, known: &JointMap, roles: [[Joint; 3]; 2]) -> Result<Option<LimbPair>, RejectionReason> {
     let mut joints = [[0; 3]; 2];

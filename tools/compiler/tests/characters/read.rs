@@ -130,6 +130,38 @@ fn bone_tables_of_vrm_name_the_joints() {
 }
 
 #[test]
+fn bone_tables_of_vrm_must_fit_the_body() {
+    let with = |swaps: &[(&str, &str)]| {
+        let (mut json, bytes) = vrm(1, &[]);
+        let bones = &mut json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"];
+        for (one, other) in swaps {
+            let (first, second) = (bones[one].clone(), bones[other].clone());
+            (bones[one], bones[other]) = (second, first);
+        }
+        (json, bytes)
+    };
+    let limbs = ["Shoulder", "UpperLeg", "LowerLeg", "Foot", "Toes", "UpperArm", "LowerArm", "Hand"];
+    let sides: Vec<_> = limbs.iter().map(|limb| (format!("left{limb}"), format!("right{limb}"))).collect();
+    let sides: Vec<_> = sides.iter().map(|(left, right)| (&**left, &**right)).collect();
+    let (json, bytes) = with(&sides);
+    let CompiledCharacter { character, notes, .. } = compiled(&glb(&json, &bytes));
+    assert_eq!(joint_name(&character, Joint::LeftToe), "J_16");
+    assert!(notes.contains(&CharacterNote::MirroredNames));
+    let arms_as_legs = [
+        ("leftUpperLeg", "leftUpperArm"),
+        ("leftLowerLeg", "leftLowerArm"),
+        ("leftFoot", "leftHand"),
+        ("rightUpperLeg", "rightUpperArm"),
+        ("rightLowerLeg", "rightLowerArm"),
+        ("rightFoot", "rightHand"),
+    ];
+    let (json, bytes) = with(&arms_as_legs);
+    check_rejected(&json, &bytes, "off the legs' direction");
+    let (json, bytes) = with(&[("leftUpperLeg", "leftLowerLeg")]);
+    check_rejected(&json, &bytes, "does not hang from");
+}
+
+#[test]
 fn rigid_meshes_move_with_their_joint() {
     let (mut json, bytes) = Figure::adult().document();
     let primitive = json["meshes"][0]["primitives"][0].clone();

@@ -22,9 +22,10 @@ use crate::terminal::output;
 ///
 /// The picture shows walls, the mesh that routes use, the route of each agent, sources, goals and closed passages.
 ///
-/// Files that it names are read, too: database, manifest of clips, characters and cameras. It need not name a motion.
+/// Files that it names are read, too: database, manifest of clips, characters and cameras. It need not name a motion, nor
+/// have agents: a plan is drawn with its walls and its closed passages.
 ///
-/// Exit code 0: the scenario can be simulated; 2: it has a mistake, which is shown at its line, or one of its files has.
+/// Exit code 0: the scenario can be simulated, or lacks agents alone; 2: it has a mistake, which is shown at its line, or one of its files has.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd check assets/scenarios/tradeshow.toml\n  fbcrowd check my/scene.toml --plot scene.png --json"
@@ -44,7 +45,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (mut scenario, motion) = scenario::read(&args.scenario)?;
+    let (mut scenario, motion) = scenario::read_plan(&args.scenario)?;
     if scenario::names_motion(&args.scenario)? {
         scenario::check_styles(&args.scenario, &styles_of(motion?)?)?;
     }

@@ -141,6 +141,6 @@ fn pose(db: &MotionDb, example: usize, cell: usize) -> Pose {
 fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<DrawnPart> {
     let frame = AgentFrame { pose: pose(db, example, cell), ..AgentFrame::default() };
     let mut parts = Vec::new();
-    drawn_body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
+    drawn_body::append_parts(&mut parts, &db.skeleton, &frame, 1.0, look(example), Detail::Full);
     parts
 }

@@ -149,7 +149,7 @@ fn draw_bodies(paper: Pixmap, db: &MotionDb, rows: &[(&Action, f32)]) -> Pixmap 
 fn parts(db: &MotionDb, frame: &ActionFrame, colours: usize) -> Vec<DrawnPart> {
     let frame = AgentFrame { pose: turned_pose(frame), ..AgentFrame::default() };
     let mut parts = Vec::new();
-    drawn_body::append_parts(&mut parts, &db.skeleton, &frame, look(colours), Detail::Full);
+    drawn_body::append_parts(&mut parts, &db.skeleton, &frame, 1.0, look(colours), Detail::Full);
     parts
 }
 

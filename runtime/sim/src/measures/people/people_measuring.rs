@@ -51,11 +51,11 @@ impl PeopleMeasuring {
             steps: 0,
             before: start.to_vec(),
             roots: RootMeasures::new(scenario, population, start),
-            slide: SoleSlideTally::new(skeleton, scenario.dt_s),
+            slide: SoleSlideTally::new(scenario.dt_s),
             tracks: Vec::new(),
             tally: PeopleTally::default(),
         };
-        start.iter().for_each(|agent| measuring.follow(agent, false));
+        start.iter().for_each(|agent| measuring.follow(agent, population, false));
         measuring
     }
 
@@ -65,7 +65,7 @@ impl PeopleMeasuring {
         self.before = start.to_vec();
         self.roots = RootMeasures::new(scenario, population, start);
         self.tracks.clear();
-        start.iter().for_each(|agent| self.follow(agent, false));
+        start.iter().for_each(|agent| self.follow(agent, population, false));
     }
 
     /// Adds up the measures of the agents that are followed.
@@ -78,7 +78,7 @@ impl PeopleMeasuring {
         self.steps += 1;
         let is_teleported = |agent: &AgentFrame| population.agents[agent.id.index()].is_teleported(self.steps);
         let teleported: Vec<bool> = after.iter().map(is_teleported).collect();
-        after.iter().zip(teleported).for_each(|(agent, teleported)| self.follow(agent, teleported));
+        after.iter().zip(teleported).for_each(|(agent, teleported)| self.follow(agent, population, teleported));
         let mut pairs = FramePairs::new(&self.before, after);
         pairs.common.retain(|(_, after)| !is_teleported_in(population, after, self.steps));
         let each = ((COMPARED_EACH_S / f64::from(self.dt_s)).round() as u32).max(1);
@@ -96,18 +96,20 @@ impl PeopleMeasuring {
     }
 
     /// Adds a frame of an agent to its track.
-    fn follow(&mut self, agent: &AgentFrame, is_moved: bool) {
+    fn follow(&mut self, agent: &AgentFrame, population: &Population, is_moved: bool) {
         let index = agent.id.index();
         if !self.ids.contains(&index) {
             return;
         }
-        let joints = agent.pose.forward_kinematics(&self.skeleton);
+        let stature = population.agents[index].stature;
+        let (skeleton, joints) =
+            (self.skeleton.sized(stature), agent.pose.forward_kinematics(&self.skeleton).sized(stature));
         let has_arrived = self.roots.has_arrived(agent.id);
         if is_moved {
             self.slide.lift(index);
         }
         if !has_arrived {
-            self.slide.push(agent, &joints);
+            self.slide.push(agent, &skeleton, &joints);
         }
         let slot = index - self.ids.start;
         if slot >= self.tracks.len() {
@@ -118,7 +120,7 @@ impl PeopleMeasuring {
             tracks.push(BodyTrack::new(f64::from(self.dt_s), f64::from(self.steps) * f64::from(self.dt_s)));
         }
         if let Some(track) = tracks.last_mut() {
-            track.samples.push(BodySample::new(&self.skeleton, agent, &joints, has_arrived));
+            track.samples.push(BodySample::new(&skeleton, agent, &joints, has_arrived));
         }
     }
 

@@ -24,24 +24,23 @@ pub struct SoleSlide {
 /// Measures every foot at both places.
 #[derive(Debug)]
 pub(crate) struct SoleSlideTally {
-    skeleton: Skeleton,
     soles: PlantedSlide,
     joints: PlantedSlide,
 }
 
 impl SoleSlideTally {
     /// No frames yet.
-    pub(crate) fn new(skeleton: &Skeleton, dt_s: f32) -> Self {
-        let slide = || PlantedSlide::new(skeleton, 0, dt_s);
-        Self { skeleton: skeleton.clone(), soles: slide(), joints: slide() }
+    pub(crate) fn new(dt_s: f32) -> Self {
+        let slide = || PlantedSlide::new(0, dt_s);
+        Self { soles: slide(), joints: slide() }
     }
 
-    /// Adds one frame of one agent.
-    pub(crate) fn push(&mut self, agent: &AgentFrame, joints: &Joints) {
+    /// Adds one frame of one agent, given its skeleton and its joints in its root's frame.
+    pub(crate) fn push(&mut self, agent: &AgentFrame, skeleton: &Skeleton, joints: &Joints) {
         let index = agent.id.index();
-        let soles_m = [0, 1].map(|side| joints.sole_points_m(&self.skeleton, side));
+        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
         self.soles.push_feet(index, agent, soles_m);
-        self.joints.push_feet(index, agent, [0, 1].map(|side| lowered_joints_m(&self.skeleton, joints, side)));
+        self.joints.push_feet(index, agent, [0, 1].map(|side| lowered_joints_m(skeleton, joints, side)));
     }
 
     /// Ends the contacts of an agent that is moved at once.
@@ -81,7 +80,7 @@ mod tests {
     #[test]
     fn a_rolling_foot_slides_at_its_joints_only() {
         let db = test_db();
-        let mut tally = SoleSlideTally::new(&db.skeleton, 1.0 / 60.0);
+        let mut tally = SoleSlideTally::new(1.0 / 60.0);
         // The left foot rolls down about its heel by 0.5 rad/s.
         let heel_m = db.skeleton.feet[0].heel_m;
         for frame in 0..60 {
@@ -95,7 +94,7 @@ mod tests {
             joints.orientations[toe] = turn;
             joints.positions_m[foot] = fixed_m - turn * heel_m;
             joints.positions_m[toe] = joints.positions_m[foot] + turn * db.skeleton.offsets_m[toe];
-            tally.push(&agent, &joints);
+            tally.push(&agent, &db.skeleton, &joints);
         }
         let found = tally.finish();
         // The ankle is 8 cm over the heel and 5 cm ahead of it.

@@ -56,16 +56,18 @@ impl MotionConstraints {
         }
     }
 
-    /// The half-plane, in world axes, of the sharp-turn edge whose cone holds v_pref. None where v_pref lies within 90°
-    /// of the facing, nor where the polygon has no edge in that direction.
-    pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
+    /// The half-plane, in world axes, of the sharp-turn edge whose cone holds v_pref, of a body whose velocities are
+    /// `factor` times those of the set. None where v_pref lies within 90° of the facing, nor where the polygon has no edge
+    /// in that direction.
+    pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2, factor: f32) -> Option<HalfPlane> {
         let local_mps = to_agent_frame(preferred_mps, forward);
         if local_mps.x >= 0.0 {
             return None;
         }
         let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(local_mps) <= 0.0 && local_mps.perp_dot(*to) <= 0.0;
         let [from, to] = self.sharp_turn_edges_mps.iter().find(holds)?;
-        half_plane(*from, *to).map(|half_plane| to_world(half_plane, forward, HalfPlaneSource::SharpTurn))
+        let half_plane = half_plane(*from, *to);
+        half_plane.map(|half_plane| to_world(half_plane, forward, factor, HalfPlaneSource::SharpTurn))
     }
 }
 
@@ -79,15 +81,18 @@ impl ConvexSet {
         }
     }
 
-    /// The set's half-planes in world axes; `forward` is the agent's facing.
-    pub fn half_planes(&self, forward: Vec2, source: HalfPlaneSource) -> impl Iterator<Item = HalfPlane> {
-        self.half_planes.iter().map(move |&half_plane| to_world(half_plane, forward, source))
+    /// The set's half-planes in world axes, of a body whose velocities are `factor` times those of the set; `forward` is
+    /// the agent's facing.
+    pub fn half_planes(&self, forward: Vec2, factor: f32, source: HalfPlaneSource) -> impl Iterator<Item = HalfPlane> {
+        self.half_planes.iter().map(move |&half_plane| to_world(half_plane, forward, factor, source))
     }
 
-    /// Distance of a velocity from the set of an agent that faces `forward`, m/s; negative inside.
-    pub fn outside_mps(&self, forward: Vec2, velocity_mps: Vec2) -> f32 {
+    /// Distance of a velocity from the set of an agent that faces `forward`, of a body whose velocities are `factor`
+    /// times those of the set, m/s; negative inside.
+    pub fn outside_mps(&self, forward: Vec2, factor: f32, velocity_mps: Vec2) -> f32 {
         let velocity_mps = to_agent_frame(velocity_mps, forward);
-        let outside_mps = |&(point_mps, direction): &(Vec2, Vec2)| direction.perp_dot(point_mps - velocity_mps);
+        let outside_mps =
+            |&(point_mps, direction): &(Vec2, Vec2)| direction.perp_dot(factor * point_mps - velocity_mps);
         self.half_planes.iter().map(outside_mps).fold(f32::NEG_INFINITY, f32::max)
     }
 }
@@ -96,8 +101,8 @@ fn to_agent_frame(velocity_mps: Vec2, forward: Vec2) -> Vec2 {
     Vec2::new(forward.dot(velocity_mps), forward.perp_dot(velocity_mps))
 }
 
-fn to_world((point_mps, direction): (Vec2, Vec2), forward: Vec2, source: HalfPlaneSource) -> HalfPlane {
-    HalfPlane::new(forward.rotate(point_mps), forward.rotate(direction), source)
+fn to_world((point_mps, direction): (Vec2, Vec2), forward: Vec2, factor: f32, source: HalfPlaneSource) -> HalfPlane {
+    HalfPlane::new(forward.rotate(factor * point_mps), forward.rotate(direction), source)
 }
 
 #[cfg(test)]
@@ -114,7 +119,7 @@ mod tests {
     }
 
     fn world_half_planes(corners_mps: &[Vec2], forward: Vec2) -> Vec<HalfPlane> {
-        ConvexSet::new(corners_mps).half_planes(forward, HalfPlaneSource::TurningHull).collect()
+        ConvexSet::new(corners_mps).half_planes(forward, 1.0, HalfPlaneSource::TurningHull).collect()
     }
 
     proptest! {
@@ -126,7 +131,7 @@ mod tests {
             let in_world = world_half_planes(&KITE, forward);
             let in_world_mps = in_world.iter().map(|half_plane| half_plane.violation_mps(velocity_mps));
             let in_world_mps = in_world_mps.fold(f32::NEG_INFINITY, f32::max);
-            prop_assert!((ConvexSet::new(&KITE).outside_mps(forward, velocity_mps) - in_world_mps).abs() < 1e-5);
+            prop_assert!((ConvexSet::new(&KITE).outside_mps(forward, 1.0, velocity_mps) - in_world_mps).abs() < 1e-5);
         }
 
         #[test]
@@ -178,7 +183,7 @@ mod tests {
             facing in -4.0f32..4.0, turn in 1.6f32..std::f32::consts::PI, left in any::<bool>(), speed_mps in 0.01f32..2.0,
         ) {
             let [forward, preferred] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
-            let half_plane = sharp_turns(&sharp_turn_edges()).sharp_turn(forward, preferred);
+            let half_plane = sharp_turns(&sharp_turn_edges()).sharp_turn(forward, preferred, 1.0);
             let local_mps = |speed_mps: f32| speed_mps * Vec2::from_angle(if left { turn } else { -turn });
             prop_assume!(in_the_polygon(local_mps(speed_mps + 1e-3)) == in_the_polygon(local_mps(speed_mps - 1e-3)));
             let permitted = half_plane.is_none_or(|half_plane| half_plane.violation_mps(speed_mps * preferred) <= 0.0);
@@ -194,17 +199,17 @@ mod tests {
             permits(&[half_plane], 1.4 * Vec2::X)
         };
         for preferred_mps in [Vec2::new(-0.7, 0.9), Vec2::new(-0.7, -0.9), -Vec2::X] {
-            let met = sharp_turns(&edges_mps).sharp_turn(Vec2::X, preferred_mps).unwrap();
+            let met = sharp_turns(&edges_mps).sharp_turn(Vec2::X, preferred_mps, 1.0).unwrap();
             assert!(permits_walking(met), "{preferred_mps}");
         }
         let next = half_plane(edges_mps[1][0], edges_mps[1][1]).unwrap();
-        assert!(!permits_walking(to_world(next, Vec2::X, HalfPlaneSource::SharpTurn)));
+        assert!(!permits_walking(to_world(next, Vec2::X, 1.0, HalfPlaneSource::SharpTurn)));
     }
 
     #[test]
     fn gentle_turns_and_missing_edges_are_free() {
         let edges_mps = sharp_turn_edges();
-        assert!(sharp_turns(&edges_mps).sharp_turn(Vec2::X, Vec2::new(0.01, 1.0)).is_none());
-        assert!(sharp_turns(&edges_mps[..3]).sharp_turn(Vec2::X, Vec2::new(-1.0, -0.5)).is_none());
+        assert!(sharp_turns(&edges_mps).sharp_turn(Vec2::X, Vec2::new(0.01, 1.0), 1.0).is_none());
+        assert!(sharp_turns(&edges_mps[..3]).sharp_turn(Vec2::X, Vec2::new(-1.0, -0.5), 1.0).is_none());
     }
 }

@@ -61,21 +61,22 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
 /// Eqs. 13, 14: all half-planes by rank, the least yielding first, and the best velocity, m/s.
 fn solve(world: &WorldView, agent: usize, set: VelocitySet, params: &McnParams, memory: &mut McnMemory) -> Vec2 {
     let forward = memory.forward;
-    let (parts, allowed) = (&params.parts, world.constraints_of(agent).set(set));
+    let (parts, allowed, factor) = (&params.parts, world.constraints_of(agent).set(set), world.speed_factor(agent));
     let half_planes = &mut memory.programs[set as usize];
     half_planes.clear();
     half_planes.extend_from_slice(&memory.of_walls); // C_iW
     half_planes.extend(world.one_way_half_planes(agent));
     half_planes.extend(of_stance(world, agent, params)); // C_bm
     if parts.sharp_turns && set == VelocitySet::Turning {
-        half_planes.extend(world.constraints_of(agent).sharp_turn(forward, world.preferred_mps[agent]));
+        half_planes.extend(world.constraints_of(agent).sharp_turn(forward, world.preferred_mps[agent], factor));
     }
     if parts.hull {
-        half_planes.extend(allowed.half_planes(forward, set.into())); // Eqs. 4, 5
+        half_planes.extend(allowed.half_planes(forward, factor, set.into())); // Eqs. 4, 5
     }
     let firm_count = half_planes.len();
     half_planes.extend_from_slice(&memory.of_agents); // C_ij
-    linear_program::solve(half_planes, firm_count, memory.adapted_mps, allowed.speed_max_mps, &mut memory.projected)
+    let speed_max_mps = factor * allowed.speed_max_mps;
+    linear_program::solve(half_planes, firm_count, memory.adapted_mps, speed_max_mps, &mut memory.projected)
         .velocity_mps
 }
 
@@ -109,6 +110,8 @@ fn orient(world: &WorldView, agent: usize, velocity_mps: Vec2, params: &McnParam
     let back_pedalling = params.parts.back_pedalling && world.constraints_of(agent).construction != Construction::Paper;
     let may_hold = back_pedalling || input.preferred_mps.dot(velocity_mps) >= 0.0;
     let holding = world.constraints_of(agent).set(VelocitySet::Holding);
-    let holds = |facing| may_hold && holding.outside_mps(facing, velocity_mps) <= orientation::HOLDING_SLACK_MPS;
+    let factor = world.speed_factor(agent);
+    let holds =
+        |facing| may_hold && holding.outside_mps(facing, factor, velocity_mps) <= orientation::HOLDING_SLACK_MPS;
     orientation::decide(&input, holds, world.dt_s, params)
 }

@@ -93,6 +93,7 @@ impl Scene {
             priorities: None,
             constraints: &MotionConstraints::new(&hull),
             own_constraints: None,
+            speed_factors: None,
             dt_s: self.dt_s,
             bodies: self.bodies,
         };

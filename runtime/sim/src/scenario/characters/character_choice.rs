@@ -32,8 +32,8 @@ impl Scenario {
     pub(crate) fn dress(&self, id: u32, agent: &mut AgentSpec) {
         let character = self.character_of(id, agent).filter(|_| agent.wears_radius);
         let Some(size) = character.and_then(|index| self.characters[index as usize].size.as_ref()) else { return };
-        agent.radius_m = size.radius_m;
-        agent.wall_radius_m = agent.wall_radius_m.min(size.radius_m);
+        agent.radius_m = (agent.stature * size.radius_m).max(*RADIUS_M.start());
+        agent.wall_radius_m = agent.wall_radius_m.min(agent.radius_m);
     }
 
     /// Turn of the hue of an agent's character, as a share of the full circle.

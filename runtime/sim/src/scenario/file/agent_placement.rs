@@ -269,6 +269,7 @@ pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioErr
         pre_movement_s,
         closed_zones: 0,
         priority: 0.0,
+        stature: 1.0,
         characters: 0,
         wears_radius: false,
         style: 0,

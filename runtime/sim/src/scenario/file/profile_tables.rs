@@ -4,6 +4,8 @@
 //! [profiles.adult]
 //! preferred_speed_mps = { normal = [1.34, 0.26], min = 0.8, max = 1.9 }
 //! radius_m = { uniform = [0.22, 0.28] }
+//! [profiles.child]
+//! stature = { uniform = [0.6, 0.75] }  # of the database's skeleton; radius and speed follow it
 //! [profiles.elderly]
 //! inherits = "adult"                  # all numbers that it does not state itself
 //! preferred_speed_mps = { uniform = [0.6, 0.9] }
@@ -22,8 +24,8 @@ use crate::scenario::characters::character_tables::set_of;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::{DistributionValue, Names, priority};
-use crate::scenario::profile::Profile;
-use crate::scenario::ranges::{PRE_MOVEMENT_S, RADIUS_M, SPEED_MPS};
+use crate::scenario::profile::{DrawnStature, Profile};
+use crate::scenario::ranges::{PRE_MOVEMENT_S, RADIUS_M, SPEED_MPS, STATURE};
 
 /// Greatest number of profiles.
 const PROFILES_MAX: usize = 1_000;
@@ -36,6 +38,7 @@ pub(crate) struct ProfileTable {
     preferred_speed_mps: Option<DistributionValue>,
     radius_m: Option<DistributionValue>,
     pre_movement_s: Option<DistributionValue>,
+    stature: Option<DistributionValue>,
     priority: Option<f32>,
     characters: Option<Vec<String>>,
     pub(crate) style: Option<Spanned<String>>,
@@ -112,6 +115,11 @@ impl<'a> Profiles<'a> {
             profile.pre_movement_s = pre_movement_s.or(profile.pre_movement_s);
             profile.preferred_speed_mps = profile.preferred_speed_mps.filter(|_| !states_speed);
             profile.radius_m = profile.radius_m.filter(|_| !states_radius);
+            profile.stature = profile.stature.map(|stature| DrawnStature {
+                scales_radius: !states_radius && profile.radius_m.is_none(),
+                scales_speed: !states_speed && profile.preferred_speed_mps.is_none(),
+                ..stature
+            });
         }
         let states_nothing = |profile: &Profile| *profile == Profile { weight: profile.weight, ..Profile::default() };
         if profiles.iter().all(states_nothing) {
@@ -179,6 +187,7 @@ fn profile(
             preferred_speed_mps: merged.preferred_speed_mps.or(parent.preferred_speed_mps),
             radius_m: merged.radius_m.or(parent.radius_m),
             pre_movement_s: merged.pre_movement_s.or(parent.pre_movement_s),
+            stature: merged.stature.or(parent.stature),
             priority: merged.priority.or(parent.priority),
             characters: merged.characters.or_else(|| parent.characters.clone()),
             style: merged.style.or_else(|| parent.style.clone()),
@@ -186,6 +195,7 @@ fn profile(
     }
     let speeds = [*SPEED_MPS.start(), *SPEED_MPS.end()];
     let radii = [*RADIUS_M.start(), *RADIUS_M.end()];
+    let sizes = [*STATURE.start(), *STATURE.end()];
     let number =
         |name, value: Option<DistributionValue>, bounds| value.map(|value| value.resolve(name, bounds)).transpose();
     Ok(Profile {
@@ -193,6 +203,11 @@ fn profile(
         preferred_speed_mps: number("`preferred_speed_mps`", merged.preferred_speed_mps, speeds)?,
         radius_m: number("`radius_m`", merged.radius_m, radii)?,
         pre_movement_s: merged.pre_movement_s.map(pre_movement).transpose()?,
+        stature: number("`stature`", merged.stature, sizes)?.map(|size| DrawnStature {
+            size,
+            scales_radius: false,
+            scales_speed: false,
+        }),
         closed_zones: 0,
         priority: merged.priority.map_or(Ok(0.0), priority)?,
         characters: merged.characters.map_or(Ok(0), |names| set_of(&names, characters))?,

@@ -46,7 +46,25 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
 /// # Errors
 /// Where it describes something that cannot be simulated, or a file that it names cannot be read.
 pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let mut file = ScenarioFile::parse(source)?;
+    let file = ScenarioFile::parse(source)?;
+    file.check_has_agents(source)?;
+    resolve(file, source)
+}
+
+/// As [`read`]; the file may state a ground alone, without agents and sources.
+///
+/// # Errors
+/// Where a file cannot be read or describes something that cannot be simulated.
+pub fn read_plan(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
+    let source = read_text(path)?;
+    resolve(ScenarioFile::parse(&source)?, &source)
+}
+
+/// The scenario that a file describes.
+fn resolve(
+    mut file: ScenarioFile,
+    source: &SourceText,
+) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let tables = file.take_behaviour();
     let behaviour = tables.resolve(source)?;
     let states = StateNames { tables: &tables, behaviour: &behaviour };

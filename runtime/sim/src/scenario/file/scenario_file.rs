@@ -134,16 +134,19 @@ impl ScenarioFile {
                 .invalid(0..0, "the file is empty", "write a scenario as docs/scenario.md shows it")
                 .into());
         }
-        let file: Self =
-            toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?;
-        if file.agents.is_none() && file.sources.is_empty() {
-            let mut missing = source.unparsed(None, "missing field `agents`", &KEYS);
-            if missing.is_quotable {
-                NO_AGENTS.clone_into(&mut missing.help);
-            }
-            return Err(missing.into());
+        toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS).into())
+    }
+
+    /// Checks that the file states agents or sources.
+    pub(crate) fn check_has_agents(&self, source: &SourceText) -> Result<(), ScenarioError> {
+        if self.agents.is_some() || !self.sources.is_empty() {
+            return Ok(());
         }
-        Ok(file)
+        let mut missing = source.unparsed(None, "missing field `agents`", &KEYS);
+        if missing.is_quotable {
+            NO_AGENTS.clone_into(&mut missing.help);
+        }
+        Err(missing.into())
     }
 
     /// The tables of agents, and their bytes in the text; none where all agents come from sources.

@@ -7,9 +7,15 @@ pub(crate) mod place_notes;
 
 use crate::scenario::resolved::Scenario;
 
+/// What is noted of a ground alone.
+const PLAN: &str = "no agents: the plan can be checked; add `[[agents]]` or `[[sources]]` to simulate it";
+
 impl Scenario {
     /// What has no effect, a sentence each.
     pub fn notes(&self) -> Vec<String> {
+        if self.is_plan() {
+            return vec![PLAN.to_owned()];
+        }
         [behaviour_notes::notes(self), place_notes::notes(self)].concat()
     }
 }

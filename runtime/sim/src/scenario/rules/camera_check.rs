@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::Vec3;
 
+use crate::scenario::Scenario;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
 use crate::scenario::ranges::{COORDINATE_MAX_M, DURATION_S, check_name, within};
@@ -59,6 +60,21 @@ pub(crate) fn check_cameras(cameras: &[CameraSpec]) -> Result<(), ScenarioFault>
         check_lens(part, camera)?;
     }
     Ok(())
+}
+
+/// Checks that the agents which cameras follow exist. Those of sources come later.
+pub(crate) fn check_followed(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    let agents = scenario.agents.len();
+    let followed = |camera: &CameraSpec| camera.eyes_of.or(camera.follow.map(|follow| follow.agent));
+    let is_missing = |camera: &CameraSpec| followed(camera).is_some_and(|agent| agent as usize >= agents);
+    match scenario.cameras.iter().position(is_missing) {
+        Some(index) if agents > 0 && scenario.sources.is_empty() => {
+            let agent = followed(&scenario.cameras[index]).unwrap_or_default();
+            let message = format!("there is no agent {agent}: the agents are 0 to {}", agents - 1);
+            ScenarioPart::Camera(index).fault(message, "name one of them")
+        }
+        _ => Ok(()),
+    }
 }
 
 fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), ScenarioFault> {
@@ -205,12 +221,14 @@ mod tests {
         let still = "eye_m = [0, -4, 1.6]\nlook_at_m = [0, 0, 1]";
         let cases = [
             (format!("[camera]\n{still}"), 3, "no focal length"),
-            (format!("[camera]\n{still}\nfocal_mm = nan"), 3, "focal_mm is NaN"),
+            (format!("[camera]\n{still}\nfocal_mm = nan"), 6, "focal_mm is NaN"),
             ("[camera]\neye_m = [0, nan, 1]\nlook_at_m = [0, 0, 1]\nfocal_mm = 35".to_owned(), 3, "y of eye_m is NaN"),
             (format!("[camera]\n{still}\nfocal_mm = 35\nfov_deg = 40"), 3, "several lenses"),
             ("[camera]\nfov_deg = 40".to_owned(), 3, "no position"),
             (format!("[camera]\n{still}\neyes_of = 0\nfov_deg = 40"), 3, "several positions"),
             (format!("[camera]\n{still}\nfov_deg = 40\nzoom = 2"), 7, "zoom"),
+            ("[camera]\neyes_of = 1\nfov_deg = 40".to_owned(), 3, "no agent 1: the agents are 0 to 0"),
+            ("[camera]\nfollow = { agent = 7 }\nfov_deg = 40".to_owned(), 3, "no agent 7"),
             ("[camera]\neye_m = [0, 0, 1]\nlook_at_m = [0, 0, 1]\nfov_deg = 40".to_owned(), 3, "its own position"),
             (
                 format!(

@@ -13,7 +13,7 @@ use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
-use crate::scenario::rules::camera_check::{check_cameras, check_heights};
+use crate::scenario::rules::camera_check::{check_cameras, check_followed, check_heights};
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::marking_check::check_markings;
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
@@ -58,6 +58,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_characters(&scenario.characters).map_err(|(_, fault)| fault)?;
     check_heights(&scenario.obstacle_heights_m)?;
     check_cameras(&scenario.cameras)?;
+    check_followed(scenario)?;
     scenario.shot.as_ref().map_or(Ok(()), |shot| check_shot(shot, scenario.duration_s))?;
     scenario.variation.as_ref().map_or(Ok(()), check_variation)?;
     check_source_ranges(scenario)
@@ -74,8 +75,8 @@ fn check_agents_clear_of_doors(scenario: &Scenario) -> Result<(), ScenarioFault>
         let high_m = door.polygon_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max) + NEAR_M;
         let signal = &scenario.behaviour.signals[door.signal as usize].name;
         for (index, source) in scenario.sources.iter().enumerate() {
-            if source.goals_m.iter().any(|goal_m| contains(&door.polygon_m, *goal_m)) {
-                let message = format!("a goal of source {index} lies in the door of signal `{signal}`");
+            if let Some(goal_m) = source.goals_m.iter().find(|goal_m| contains(&door.polygon_m, **goal_m)) {
+                let message = format!("the goal {goal_m} of source {index} lies in the door of signal `{signal}`");
                 return ScenarioPart::Source(index).fault(message, OUT_OF_DOORS);
             }
         }
@@ -87,8 +88,8 @@ fn check_agents_clear_of_doors(scenario: &Scenario) -> Result<(), ScenarioFault>
                 let message = format!("agent {index} starts in a door that is closed at 0 s: signal `{signal}` is red");
                 return part.fault(message, "move it, or let a green phase of the signal begin at 0 s by `offset_s`");
             }
-            if agent.goals_m.iter().any(|goal_m| contains(&door.polygon_m, *goal_m)) {
-                let message = format!("a goal of agent {index} lies in the door of signal `{signal}`");
+            if let Some(goal_m) = agent.goals_m.iter().find(|goal_m| contains(&door.polygon_m, **goal_m)) {
+                let message = format!("the goal {goal_m} of agent {index} lies in the door of signal `{signal}`");
                 return part.fault(message, OUT_OF_DOORS);
             }
         }
@@ -107,8 +108,8 @@ fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), ScenarioFa
             if near(agent.position_m) {
                 check_start(index, agent, obstacle, polygon_m)?;
             }
-            if agent.goals_m.iter().any(|goal_m| near(*goal_m) && contains(polygon_m, *goal_m)) {
-                let message = format!("a goal of agent {index} lies inside obstacle {obstacle}");
+            if let Some(goal_m) = agent.goals_m.iter().find(|goal_m| near(**goal_m) && contains(polygon_m, **goal_m)) {
+                let message = format!("the goal {goal_m} of agent {index} lies inside obstacle {obstacle}");
                 return ScenarioPart::Journey(index).fault(message, "move the goal to free ground");
             }
             if let Some(goal_m) = agent.goals_m.last().filter(|goal_m| near(**goal_m)) {

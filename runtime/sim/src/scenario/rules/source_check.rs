@@ -123,8 +123,10 @@ pub(crate) fn check_sources_clear_of_obstacles(scenario: &Scenario) -> Result<()
 fn check_goal(scenario: &Scenario, index: usize, goal_m: Vec2) -> Result<(), ScenarioFault> {
     match scenario.obstacles_m.iter().position(|polygon_m| contains(polygon_m, goal_m)) {
         None => Ok(()),
-        Some(obstacle) => ScenarioPart::Source(index)
-            .fault(format!("a goal of source {index} lies inside obstacle {obstacle}"), "move the goal to free ground"),
+        Some(obstacle) => ScenarioPart::Source(index).fault(
+            format!("the goal {goal_m} of source {index} lies inside obstacle {obstacle}"),
+            "move the goal to free ground",
+        ),
     }
 }
 

@@ -20,17 +20,18 @@ pub(crate) fn check_closed_zones(scenario: &Scenario) -> Result<(), ScenarioFaul
             if contains(&outline_m, agent.position_m) || f64::from(agent.wall_radius_m) - clear_m > TOUCH_M {
                 return part.fault(format!("agent {index} starts in zone {zone}, which is closed to it"), help);
             }
-            if has_goal_in(&outline_m, &agent.goals_m) {
-                return part.fault(format!("a goal of agent {index} lies in zone {zone}, which is closed to it"), help);
+            if let Some(goal_m) = goal_in(&outline_m, &agent.goals_m) {
+                let message = format!("the goal {goal_m} of agent {index} lies in zone {zone}, which is closed to it");
+                return part.fault(message, help);
             }
         }
     }
     for (index, source) in scenario.sources.iter().enumerate() {
         for set in source.closed_zone_sets() {
             for (zone, spec) in scenario.closed_zones(set) {
-                if has_goal_in(&spec.area.outline_m(), &source.goals_m) {
-                    let message =
-                        format!("a goal of source {index} lies in zone {zone}, which is closed to its agents");
+                if let Some(goal_m) = goal_in(&spec.area.outline_m(), &source.goals_m) {
+                    let closed = "which is closed to its agents";
+                    let message = format!("the goal {goal_m} of source {index} lies in zone {zone}, {closed}");
                     return ScenarioPart::Source(index).fault(message, help);
                 }
             }
@@ -39,6 +40,6 @@ pub(crate) fn check_closed_zones(scenario: &Scenario) -> Result<(), ScenarioFaul
     Ok(())
 }
 
-fn has_goal_in(outline_m: &[Vec2], goals_m: &[Vec2]) -> bool {
-    goals_m.iter().any(|goal_m| contains(outline_m, *goal_m))
+fn goal_in(outline_m: &[Vec2], goals_m: &[Vec2]) -> Option<Vec2> {
+    goals_m.iter().copied().find(|goal_m| contains(outline_m, *goal_m))
 }

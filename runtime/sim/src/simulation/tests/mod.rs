@@ -1,5 +1,5 @@
 //! Claims about whole steps: determinism, arrival, walls, couplings; and about agents that behave, come and go, find their
-//! routes, wait before doors, walk in groups, and have priorities.
+//! routes, wait before doors, walk in groups, and have priorities and sizes.
 
 use std::path::PathBuf;
 
@@ -22,6 +22,7 @@ mod one_way;
 mod places;
 mod priority;
 mod route;
+mod stature;
 mod turnover;
 mod wild_behaviour;
 

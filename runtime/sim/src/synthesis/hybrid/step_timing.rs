@@ -24,9 +24,6 @@ const SWING_HALF: f32 = 0.19;
 const SHORT_SWING: f32 = 0.8;
 /// Phase rates, divided by that of the base walk, at which steps are short, and from which on they keep their timing.
 const SHORT_STEPS: [f32; 2] = [0.75, 1.0];
-/// Speeds to which a body is to change, divided by that of the base walk, with the same meaning: the first step of a walk
-/// is no short one.
-const SHORT_SPEEDS: [f32; 2] = [0.5, 0.8];
 /// Greatest distance of the body from its root, m: half a small step.
 const LEAD_MAX_M: f32 = 0.1;
 /// Greatest pace of a swing.
@@ -91,20 +88,21 @@ pub(crate) struct GaitTiming {
     pub(crate) target: f32,
 }
 
-/// q of a gait, given its phase rate and the speed to come, each divided by that of the base walk.
+/// q of a gait, given its phase rate and the speed to come, each divided by that of the base walk. The step that a body
+/// takes to a greater speed is no shorter than those that follow.
 fn swing_pace(rate: f32, target: f32) -> f32 {
-    let shortness = shortness(rate, SHORT_STEPS).min(shortness(target, SHORT_SPEEDS));
+    let [short, long] = SHORT_STEPS;
+    let rate = rate.max(target);
+    let shortness = ((long - rate) / (long - short)).clamp(0.0, 1.0);
     1.0 + shortness * ((1.0 / (SHORT_SWING * rate)).min(PACE_MAX) - 1.0)
-}
-
-/// 1 below a range, 0 above it.
-fn shortness(value: f32, [short, long]: [f32; 2]) -> f32 {
-    ((long - value) / (long - short)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Length of a stride of small steps, m.
+    const STRIDE_M: f32 = 0.5;
 
     fn gait(mean_hz: f32, speed_mps: f32) -> GaitTiming {
         GaitTiming { mean_hz, base_hz: 0.83, speed_mps, target: speed_mps / 1.1 }
@@ -115,7 +113,7 @@ mod tests {
         let (mut timing, mut phase, step) = (StepTiming::default(), 0.3_f32, TimeStep::new(dt_s));
         let (mut swing_s, mut all_s, mut strides, mut leads_s) = (0.0, 0.0, 0.0, [f32::MAX, f32::MIN]);
         for index in 0..(60.0 / dt_s) as usize {
-            timing.follow(phase, &gait(mean_hz, 0.2), &step);
+            timing.follow(phase, &gait(mean_hz, STRIDE_M * mean_hz), &step);
             let swings = (phase - 0.5 * (2.0 * phase).round()).abs() < SWING_HALF;
             phase += dt_s * mean_hz * timing.pace;
             if index as f32 * dt_s > 20.0 {

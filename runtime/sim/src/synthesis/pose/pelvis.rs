@@ -72,7 +72,8 @@ impl PelvisDrop {
         }
         let (least_mps, greatest_mps) = (self.rate_mps - RISE_MPS2 * step.dt_s, self.rate_mps + DROP_MPS2 * step.dt_s);
         let rate_mps = (self.needed_mps - meeting_mps(self.lag_m, step.dt_s)).clamp(least_mps, greatest_mps);
-        let lag_m = (self.lag_m + step.dt_s * (rate_mps - self.needed_mps)).max(-LATE_MAX_M);
+        let lag_m = self.lag_m + step.dt_s * (rate_mps - self.needed_mps);
+        let lag_m = lag_m.clamp(-LATE_MAX_M, (DROP_MAX_M - needed_m).max(0.0));
         self.rate_mps = self.needed_mps + (lag_m - self.lag_m) / step.dt_s;
         (self.lag_m, self.needed_m) = (lag_m, needed_m);
         needed_m + lag_m
@@ -208,6 +209,15 @@ mod tests {
         let rising = drops_m[59..].windows(3);
         let accelerations_mps2 = rising.map(|three| (three[0] - 2.0 * three[1] + three[2]).abs() * 120.0 * 120.0);
         assert!(accelerations_mps2.fold(0.0, f32::max) < 1.1 * RISE_MPS2 && drops_m[119] < 1e-3);
+    }
+
+    #[test]
+    fn a_sudden_drop_ends_at_the_greatest() {
+        let step = TimeStep::new(1.0 / 120.0);
+        let mut drop = PelvisDrop::default();
+        let needed_m = (0..60).map(|step: i32| (0.03 * step as f32).min(DROP_MAX_M));
+        let deepest_m = needed_m.map(|needed_m| drop.follow(needed_m, false, &step)).fold(0.0, f32::max);
+        assert!(deepest_m <= DROP_MAX_M, "{deepest_m}");
     }
 
     #[test]

@@ -105,6 +105,7 @@ impl Scene {
             priorities: None,
             constraints: &constraints,
             own_constraints: None,
+            speed_factors: None,
             dt_s: 0.1,
             bodies: true,
         };

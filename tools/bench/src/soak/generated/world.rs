@@ -113,6 +113,7 @@ impl GeneratedWorld {
             priorities: None,
             constraints,
             own_constraints: None,
+            speed_factors: None,
             dt_s: self.dt_s,
             bodies: true,
         }
