@@ -53,8 +53,10 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileErro
     let decode = |reason: String| KIND.undecoded(path, format!("its content cannot be decoded: {reason}"));
     let (mut db, mut rest): (MotionDb, &[u8]) = decoded(payload).map_err(decode)?;
     if !rest.is_empty() {
+        let no_styles =
+            |reason: String| format!("{} bytes follow the database, which are no styles: {reason}", rest.len());
         let styles: (String, Vec<(String, MotionDb)>);
-        (styles, rest) = decoded(rest).map_err(decode)?;
+        (styles, rest) = decoded(rest).map_err(|reason| decode(no_styles(reason)))?;
         let further = styles.1.into_iter();
         (db.style, db.further_styles) = (styles.0, further.map(|(style, db)| MotionDb { style, ..db }).collect());
     }
