@@ -56,9 +56,11 @@ fn a_folder_without_index_is_bad_input() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn leave_one_out_has_three_sets() {
+fn leave_one_out_has_three_sets_and_their_styles() {
     let found = check_bench("leave-one-out", &["--mocap", text(&mocap())]);
-    assert_eq!(found["sets"].as_array().unwrap().len(), 3);
+    let sets = found["sets"].as_array().unwrap();
+    let of = |name: &str| sets.iter().filter(|set| set["name"] == name).count();
+    assert_eq!(["Marine", "Bandai Namco", "bundled"].map(of), [1, 5, 1]);
 }
 
 #[test]

@@ -72,6 +72,23 @@ fn notes() -> Vec<(Note, &'static str)> {
             "from 4.0 s to 11.5 s the body goes on its hands, and in 2 more parts it is not upright (12.0 s in all); \
              this gives no example (state `posture = \"any\"` in a manifest.toml to use it)",
         ),
+        (
+            Note::CoincidentManners { example: "bent".into(), blended: "walk".into(), distance_cm: 11.6 },
+            "`bent` has the parameters of `walk`, which is blended in its place, but moves otherwise (12 cm a joint); to \
+             keep both, state a `style` in a manifest.toml",
+        ),
+        (
+            Note::IdleOfOtherStyle { style: "elderly".into(), lender: "neutral".into() },
+            "style `elderly` has no idle and stands as `neutral` does; add a clip of it that stands",
+        ),
+        (
+            Note::IdleOfOtherStyle { style: "elderly".into(), lender: String::new() },
+            "style `elderly` has no idle and stands as a clip without style does; add a clip of it that stands",
+        ),
+        (
+            Note::AddedToStyle { style: "neutral".into() },
+            "no clip without a style steps, so this one is used for style `neutral`",
+        ),
     ]
 }
 
@@ -96,6 +113,16 @@ fn warnings() -> Vec<(Warning, &'static str)> {
             Warning::FrameTimeDoubtful { step_cm: 68.0, steps_per_min: 52.0, frame_rate_hz: 60.0 },
             "steps of 68 cm, only 52 a minute, look like slow motion; if the clip was recorded at another rate than 60 \
              Hz, state `frame_rate_hz` in a manifest.toml",
+        ),
+        (
+            Warning::StyleWithoutExample { style: "elderly".into() },
+            "style `elderly` gives no example, so the database lacks it; add a steady walk of this style, or state \
+             `style = \"\"` for its clips in a manifest.toml",
+        ),
+        (
+            Warning::StyleWithoutStride { style: "elderly".into() },
+            "style `elderly` has no stride, so its agents reach no goal; add a steady walk of this style, or state \
+             `style = \"\"` for its clips in a manifest.toml",
         ),
         (
             Warning::SidesExchanged,
@@ -293,6 +320,9 @@ const NUMBERED: [&[&str]; 3] = [
         "same_take",
         "coincident_example",
         "low_parts_left_out",
+        "coincident_manners",
+        "idle_of_other_style",
+        "added_to_style",
     ],
     &[
         "inhuman_size",
@@ -311,6 +341,8 @@ const NUMBERED: [&[&str]; 3] = [
         "not_compared",
         "unit_doubtful",
         "frame_time_doubtful",
+        "style_without_example",
+        "style_without_stride",
     ],
     &[
         "up_contradicted",

@@ -91,6 +91,27 @@ pub enum Note {
         /// Number of the others.
         more: u32,
     },
+    /// Two examples have the same parameters, but their poses differ; one of them is blended.
+    CoincidentManners {
+        /// Name of the example that is not blended.
+        example: String,
+        /// Name of the example that is blended in its place.
+        blended: String,
+        /// Mean distance of the joints over the cycle, cm.
+        distance_cm: f32,
+    },
+    /// A style without an idle stands as this clip of another style does.
+    IdleOfOtherStyle {
+        /// The style that lacks an idle.
+        style: String,
+        /// The style of the clip; empty where it has none.
+        lender: String,
+    },
+    /// The clip has no style, and no clip without a style steps: it belongs to another style.
+    AddedToStyle {
+        /// The style.
+        style: String,
+    },
 }
 
 impl Note {
@@ -110,6 +131,9 @@ impl Note {
             Self::SameTake { .. } => "same_take",
             Self::CoincidentExample { .. } => "coincident_example",
             Self::LowPartsLeftOut { .. } => "low_parts_left_out",
+            Self::CoincidentManners { .. } => "coincident_manners",
+            Self::IdleOfOtherStyle { .. } => "idle_of_other_style",
+            Self::AddedToStyle { .. } => "added_to_style",
         }
     }
 }
@@ -158,6 +182,18 @@ impl fmt::Display for Note {
             }
             Self::CoincidentExample { example, blended } => {
                 write!(out, "`{example}` has the parameters of `{blended}`, which is blended in its place")
+            }
+            Self::CoincidentManners { example, blended, distance_cm } => write!(
+                out,
+                "`{example}` has the parameters of `{blended}`, which is blended in its place, but moves otherwise \
+                 ({distance_cm:.0} cm a joint); to keep both, state a `style` in a manifest.toml"
+            ),
+            Self::IdleOfOtherStyle { style, lender } => {
+                let lender = if lender.is_empty() { "a clip without style".to_owned() } else { format!("`{lender}`") };
+                write!(out, "style `{style}` has no idle and stands as {lender} does; add a clip of it that stands")
+            }
+            Self::AddedToStyle { style } => {
+                write!(out, "no clip without a style steps, so this one is used for style `{style}`")
             }
             Self::LowPartsLeftOut { posture, longest_s: [first_s, last_s], total_s, more } => {
                 write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;

@@ -118,6 +118,16 @@ pub enum Warning {
         /// Frame rate that is used, Hz.
         frame_rate_hz: f32,
     },
+    /// The clips of a style give no example.
+    StyleWithoutExample {
+        /// The style.
+        style: String,
+    },
+    /// No clip of a style walks, runs or steps.
+    StyleWithoutStride {
+        /// The style.
+        style: String,
+    },
 }
 
 impl Warning {
@@ -140,6 +150,8 @@ impl Warning {
             Self::FrameTimesDiffer { .. } => "frame_times_differ",
             Self::NotCompared { .. } => "not_compared",
             Self::FrameTimeDoubtful { .. } => "frame_time_doubtful",
+            Self::StyleWithoutExample { .. } => "style_without_example",
+            Self::StyleWithoutStride { .. } => "style_without_stride",
         }
     }
 }
@@ -201,6 +213,16 @@ impl fmt::Display for Warning {
             Self::FrameTimesDiffer { others, more, mirrored, windows_left_out } => {
                 frame_times_differ(out, others, *more, *mirrored, *windows_left_out)
             }
+            Self::StyleWithoutExample { style } => write!(
+                out,
+                "style `{style}` gives no example, so the database lacks it; add a steady walk of this style, or state \
+                 `style = \"\"` for its clips in a manifest.toml"
+            ),
+            Self::StyleWithoutStride { style } => write!(
+                out,
+                "style `{style}` has no stride, so its agents reach no goal; add a steady walk of this style, or state \
+                 `style = \"\"` for its clips in a manifest.toml"
+            ),
             Self::NotCompared { compared } => write!(
                 out,
                 "duplicates of this clip are not searched for: only the {compared} longest clips are compared; compile \

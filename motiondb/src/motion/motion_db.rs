@@ -53,12 +53,34 @@ pub struct MotionDb {
     pub correspondence: Option<Correspondence>,
     /// Idles, the best first, then transitions by kind and name.
     pub actions: Vec<Action>,
+    /// The style of all clips, such as `elderly`; empty where none is stated or found.
+    // The file holds both fields after the others, and only where they are not empty.
+    #[serde(skip)]
+    pub style: String,
+    /// Databases of further styles over the same skeleton, sorted by style. They have no further styles themselves.
+    #[serde(skip)]
+    pub further_styles: Vec<Self>,
 }
 
 impl MotionDb {
     /// Joints of one example in every row, root frame.
     pub fn posed_rows(&self, example: usize) -> Vec<Joints> {
         (0..PHASE_COUNT).map(|phase| self.rows.pose(example, phase).forward_kinematics(&self.skeleton)).collect()
+    }
+
+    /// The databases of all styles: this one, which serves agents without a style, then the further ones.
+    pub fn styles(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.further_styles)
+    }
+
+    /// The database of a style; `None` where the set lacks it.
+    pub fn of_style(&self, style: &str) -> Option<&Self> {
+        self.styles().find(|db| db.style == style)
+    }
+
+    /// Whether the set distinguishes styles.
+    pub fn has_styles(&self) -> bool {
+        !self.style.is_empty() || !self.further_styles.is_empty()
     }
 
     /// The idles, the best first.

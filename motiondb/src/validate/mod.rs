@@ -7,7 +7,7 @@
 //! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
 //! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
 //! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). `actions` has the invariants of
-//! actions in all tiers. If `structure` fails, only its
+//! actions in all tiers, `styles` those between the styles of a set. If `structure` fails, only its
 //! first fault is reported. In later tiers, all faults are. After a failed tier, later tiers are not checked. The doc
 //! of each function states the invariant.
 
@@ -15,12 +15,14 @@ mod actions;
 mod blending;
 mod motion;
 mod structure;
+mod styles;
 mod values;
 mod velocity_sets;
 
 use crate::motion::motion_db::{MotionDb, MotionExample};
 
 pub use motion::contradiction;
+pub use styles::is_style_name;
 
 /// The check of one invariant.
 ///
@@ -50,7 +52,8 @@ type CheckResult = Result<(), String>;
 type Invariant = (&'static str, fn(&MotionDb) -> CheckResult);
 
 /// First tier: lengths, indices and names, each based on those before.
-const STRUCTURE: [Invariant; 5] = [
+const STRUCTURE: [Invariant; 6] = [
+    ("styles_are_unique", styles::styles_are_unique),
     ("has_examples", structure::has_examples),
     ("rows_are_complete", structure::rows_are_complete),
     ("indices_are_in_range", structure::indices_are_in_range),
@@ -59,7 +62,8 @@ const STRUCTURE: [Invariant; 5] = [
 ];
 
 /// Second tier: values, each by itself.
-const VALUES: [Invariant; 9] = [
+const VALUES: [Invariant; 10] = [
+    ("styles_share_the_skeleton", styles::styles_share_the_skeleton),
     ("skeleton_is_a_body", values::skeleton_is_a_body),
     ("sources_are_finite", values::sources_are_finite),
     ("windows_are_ordered", values::windows_are_ordered),
@@ -90,8 +94,24 @@ const CONSEQUENCES: [Invariant; 15] = [
     ("correspondences_are_cyclic", blending::correspondences_are_cyclic),
 ];
 
-/// Checks of all invariants; after a failed tier, later tiers are left out.
+/// Checks of all invariants; after a failed tier, later tiers are left out. The fault of a further style names it.
 pub fn validate(db: &MotionDb) -> Vec<Check> {
+    let mut checks = validate_style(db);
+    for style in &db.further_styles {
+        let named = |broken: String| format!("style `{}`: {broken}", style.style);
+        for Check { name, broken } in validate_style(style) {
+            let broken = broken.map(named);
+            match checks.iter_mut().find(|check| check.name == name) {
+                Some(check) => check.broken = check.broken.take().or(broken),
+                None => checks.push(Check { name, broken }),
+            }
+        }
+    }
+    checks
+}
+
+/// Checks of all invariants of a database without its further styles.
+fn validate_style(db: &MotionDb) -> Vec<Check> {
     let check = |(name, invariant): Invariant| Check { name, broken: invariant(db).err() };
     let is_broken = |check: &Check| check.broken.is_some();
     let mut checks = Vec::new();

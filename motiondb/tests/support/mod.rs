@@ -25,6 +25,8 @@ pub(crate) fn small_db() -> MotionDb {
     let names = ["stand", "turn_none", "turn_one"];
     let examples: Vec<MotionExample> = names.iter().zip(parameters).map(|(name, at)| example(name, at)).collect();
     let mut db = MotionDb {
+        style: String::new(),
+        further_styles: Vec::new(),
         skeleton: skeleton(),
         sources: vec![source()],
         rows: rows(&examples),

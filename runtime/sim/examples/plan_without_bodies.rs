@@ -89,6 +89,7 @@ fn main() {
             one_way: &[],
             priorities: None,
             constraints: &constraints,
+            own_constraints: None,
             speed_factors: None,
             dt_s: DT_S,
             bodies: false,

@@ -56,6 +56,8 @@ pub struct Agents {
     pub closed_zones: Vec<u32>,
     /// Right of way in the present state.
     pub priorities: Vec<f32>,
+    /// Style of the body's motion, as in [`AgentSpec`]: index of its synthesis context.
+    pub styles: Vec<u32>,
     /// How far each has got on its way.
     pub progress: Vec<PathProgress>,
     /// What each remembers of its route around walls.
@@ -94,6 +96,7 @@ macro_rules! for_each_array {
             wall_radii_m,
             closed_zones,
             priorities,
+            styles,
             progress,
             route_memory,
             preferred_mps,
@@ -134,6 +137,7 @@ impl Agents {
         self.wall_radii_m.push(spec.wall_radius_m);
         self.closed_zones.push(spec.closed_zones);
         self.priorities.push(spec.priority);
+        self.styles.push(spec.style);
         self.progress.push(PathProgress::default());
         self.route_memory.push(RouteMemory::default());
         self.preferred_mps.push(Vec2::ZERO);

@@ -69,6 +69,7 @@
 //!     one_way: &[],
 //!     priorities: None,
 //!     constraints: &MotionConstraints::new(&VelocityHull::default()),
+//!     own_constraints: None,
 //!     speed_factors: None,
 //!     dt_s: 0.1,
 //!     bodies: false,

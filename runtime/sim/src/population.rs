@@ -65,17 +65,17 @@ pub struct RadiusChange {
 }
 
 impl AgentLife {
-    /// A life that begins in a frame, with the first database and the plain body.
+    /// A life that begins in a frame, with the database of its style and the plain body.
     pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
         Self {
             group: spec.group.map(|group| group.first),
+            database: spec.style,
             stature: spec.stature,
             spec,
             source,
             reaction_s: 0.0,
             born,
             removed: None,
-            database: 0,
             character: None,
             radii_m: Vec::new(),
             teleports: Vec::new(),

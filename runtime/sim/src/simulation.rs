@@ -29,7 +29,7 @@ use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
-use crate::planning::world_view::{OwnWalls, WorldView};
+use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::door_routes::{ClosedDoors, DoorRoutes};
@@ -84,7 +84,8 @@ pub enum Stage {
 /// A running simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    context: SynthesisContext,
+    /// What bodies move by, for agents without a style, then for each style of the scenario.
+    contexts: Vec<SynthesisContext>,
     scenario: Scenario,
     /// The walls, with the doors that are closed now.
     obstacles: Obstacles,
@@ -97,7 +98,8 @@ pub struct Simulation {
     doors: Doors,
     /// Why there are no routes; none of a checked scenario.
     route_error: Option<RouteError>,
-    constraints: MotionConstraints,
+    /// The constraints of each context.
+    constraints: Vec<MotionConstraints>,
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
@@ -120,11 +122,14 @@ impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
         let params = HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() };
-        let context = SynthesisContext::new(db, params);
+        let of_style = |style: &String| db.of_style(style).map_or_else(|| db.clone(), |db| Arc::new(db.clone()));
+        let databases: Vec<Arc<MotionDb>> = scenario.styles.iter().map(of_style).collect();
+        let context = |db| SynthesisContext::new(db, params.clone());
+        let contexts: Vec<SynthesisContext> = std::iter::once(db).chain(databases).map(context).collect();
         let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
         for (index, spec) in scenario.agents.iter().enumerate() {
             Self::add_behaviour(&mut crowd, scenario, spec);
-            agents.push(index.into(), spec, scenario, &context);
+            agents.push(index.into(), spec, scenario, context_of(&contexts, spec.style));
         }
         let (routes, route_error) = match DoorRoutes::new(scenario) {
             Ok(routes) => (routes, None),
@@ -138,7 +143,7 @@ impl Simulation {
             doors: Doors::new(scenario),
             routes,
             route_error,
-            constraints: MotionConstraints::new(&context.db.velocity_hull),
+            constraints: contexts.iter().map(|context| MotionConstraints::new(&context.db.velocity_hull)).collect(),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
             population: Population::of(scenario),
@@ -146,7 +151,7 @@ impl Simulation {
             scenario: scenario.clone(),
             agents,
             crowd,
-            context,
+            contexts,
             has_groups: scenario.has_groups(),
             has_priorities: scenario.has_priorities(),
             has_statures: scenario.has_statures(),
@@ -158,9 +163,14 @@ impl Simulation {
         simulation
     }
 
-    /// The database that bodies move by: the given one, augmented where it lacks what a crowd needs.
+    /// The database that bodies without a style move by: the given one, augmented where it lacks what a crowd needs.
     pub fn database(&self) -> &MotionDb {
-        &self.context.db
+        &self.contexts[0].db
+    }
+
+    /// The databases of all styles that the scenario names, in their order, augmented.
+    pub fn style_databases(&self) -> impl Iterator<Item = &MotionDb> {
+        self.contexts[1..].iter().map(|context| &*context.db)
     }
 
     /// All agents so far, and the counts of the sources.
@@ -211,7 +221,7 @@ impl Simulation {
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
-        body_to_disc::synchronize(&mut self.agents, &self.context, self.scenario.dt_s);
+        body_to_disc::synchronize(&mut self.agents, &self.contexts, self.scenario.dt_s);
         self.steps += 1;
         self.teleport();
         self.bear_due_agents();
@@ -271,7 +281,9 @@ impl Simulation {
                 .then_some(OwnWalls { closed_zones: &agents.closed_zones, zone_walls: &self.zone_walls }),
             one_way: &self.one_way,
             priorities: self.has_priorities.then_some(&agents.priorities[..]),
-            constraints: &self.constraints,
+            constraints: &self.constraints[0],
+            own_constraints: (self.constraints.len() > 1)
+                .then_some(OwnConstraints { styles: &agents.styles, constraints: &self.constraints }),
             speed_factors: self.has_statures.then_some(&agents.speed_factors[..]),
             dt_s: self.scenario.dt_s,
             bodies: self.scenario.coupling.plans_for_bodies(),
@@ -287,15 +299,20 @@ impl Simulation {
     }
 
     fn synthesize(&mut self) {
-        let (context, agents, obstacles) = (&self.context, &mut self.agents, &self.obstacles);
+        let (contexts, agents, obstacles) = (&self.contexts, &mut self.agents, &self.obstacles);
         let zone_walls = &self.zone_walls;
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
         let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
         let planned = agents.plans.par_iter().zip(&agents.statures);
-        bodies.zip(planned).zip(&agents.wall_radii_m).zip(&agents.closed_zones).for_each(
-            |((((((body, stance), frame), is_between_steps), (plan, stature)), &wall_radius_m), &closed_zones)| {
+        let bodies = bodies.zip(planned).zip(&agents.wall_radii_m).zip(&agents.closed_zones).zip(&agents.styles);
+        bodies.for_each(
+            |(
+                ((((((body, stance), frame), is_between_steps), (plan, stature)), &wall_radius_m), &closed_zones),
+                &style,
+            )| {
+                let context = context_of(contexts, style);
                 let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
                 let (plan, step) = (&stature.plan_of_body(plan), &stature.step_of_body(&time_step));
                 let from = body.root;
@@ -341,6 +358,11 @@ impl Simulation {
             ..*frame
         };
     }
+}
+
+/// The context of a style, by index; of an unknown one that of agents without a style.
+fn context_of(contexts: &[SynthesisContext], style: u32) -> &SynthesisContext {
+    contexts.get(style as usize).unwrap_or(&contexts[0])
 }
 
 /// Whether a body is between two steps of its feet, given the contacts before and after a step of time: both feet are

@@ -43,6 +43,8 @@ const SEMI_PROCEDURAL: usize = 2;
 /// The database.
 pub(crate) fn test_db() -> MotionDb {
     let mut db = MotionDb {
+        style: String::new(),
+        further_styles: Vec::new(),
         skeleton: skeleton(),
         sources: Vec::new(),
         examples: EXAMPLES

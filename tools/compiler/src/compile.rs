@@ -15,7 +15,6 @@ use crate::action::joined_action::{in_order, joined_idles};
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
-use crate::dedup::duplicates;
 use crate::error::{CompileError, Rejection};
 use crate::ground::target_body::target_body;
 use crate::input::clip_set::{self, ClipSet};
@@ -27,6 +26,9 @@ use crate::select::best_windows::{best_windows, windows_that_add};
 use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
+use crate::styles::joined_styles::joined;
+use crate::styles::lent_idle::lend_idle;
+use crate::styles::style_part::{StylePart, by_style};
 use crate::transition::transitions::transitions;
 
 /// Memory of each frame of an analysed clip beside its pose, bytes: its signatures, at 30 frames a second.
@@ -76,14 +78,15 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
 ///    of near-equal ones.
-/// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
+/// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
+///    duplicates ([`crate::dedup`]).
 /// 4. Cut the idles (`action`).
 /// 5. Keep the windows that add to the set ([`crate::select`]).
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
 /// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
 /// 9. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
-/// 10. Check every invariant of the database ([`motiondb::validate`]).
+/// 10. Join the styles over one skeleton; check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
 /// If there are no clips, none gives an example, the chosen m_sp does not step, a clip does not show the transition that
@@ -113,17 +116,32 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let compared = set.compared();
     let analyzed = set.analyzed();
     observer(CompileEvent::Stage("selection"));
-    let unique = set.without_duplicates(&compared, analyzed);
-    let cut = idles(&set.clips, &unique, &set.body);
-    let adding = windows_that_add(unique);
-    let named = named_cycles(&set.clips, &adding, &set.body)?;
-    let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
-    let idles = joined_idles(cut, &selected.cycles, &set.body);
-    observer(CompileEvent::Stage("transitions"));
-    let actions = in_order(idles, transitions(&set.clips, &adding, &selected.cycles, &set.body)?);
-    let db = assemble(selected, &actions, &set.body, options.velocity_hull, observer);
+    let TargetedClips { clips, body } = set;
+    let parts = by_style(clips, compared, analyzed).into_iter();
+    let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body)).collect();
+    lend_idle(&mut parts);
+    let databases: Result<Vec<MotionDb>, CompileError> =
+        parts.into_iter().map(|part| style_database(part, &body, options, observer)).collect();
+    let db = joined(databases?).ok_or(CompileError::NoClips)?;
     observer(CompileEvent::Stage("validation"));
     valid(db)
+}
+
+/// The database of the clips of one style.
+fn style_database(
+    StylePart { style, clips, analyzed, .. }: StylePart,
+    body: &HumanBody,
+    options: &Options,
+    observer: &Observer,
+) -> Result<MotionDb, CompileError> {
+    let cut = idles(&clips, &analyzed, body);
+    let adding = windows_that_add(analyzed);
+    let named = named_cycles(&clips, &adding, body)?;
+    let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
+    let idles = joined_idles(cut, &selected.cycles, body);
+    observer(CompileEvent::Stage("transitions"));
+    let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
+    Ok(MotionDb { style, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
 }
 
 /// Checks that the system gives the memory that the analysis of some clips needs.
@@ -159,16 +177,6 @@ impl TargetedClips {
     /// on the target body only those of rests and movements are left.
     pub(crate) fn analyzed(&mut self) -> Vec<AnalyzedClip> {
         self.clips.par_iter_mut().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body)).keep_needed()).collect()
-    }
-
-    /// Drops the windows of which another clip has a better copy.
-    pub(crate) fn without_duplicates(
-        &self,
-        compared: &[ComparedClip],
-        mut analyzed: Vec<AnalyzedClip>,
-    ) -> Vec<AnalyzedClip> {
-        duplicates::drop_duplicates(&self.clips, compared, &mut analyzed, &self.body);
-        analyzed
     }
 }
 

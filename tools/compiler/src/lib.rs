@@ -57,6 +57,7 @@ pub mod read;
 pub mod retarget;
 pub mod rig;
 pub mod select;
+mod styles;
 pub mod survey;
 #[cfg(test)]
 mod synthetic;

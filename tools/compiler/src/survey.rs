@@ -16,12 +16,15 @@ use crate::gait::foot_stance::FootStance;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitWindow, WindowGait};
 use crate::retarget::human_clip::HumanClip;
+use crate::styles::style_part::{StylePart, by_style};
 
 /// The record of a clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyedSource {
     /// The record that a database would hold.
     pub source: SourceRecord,
+    /// The style of the clip; empty for none.
+    pub style: String,
     /// Gait of the whole clip.
     pub gait: SourceGait,
 }
@@ -93,12 +96,19 @@ pub fn survey(clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
     let gaits: Vec<SourceGait> = set.clips.par_iter().map(source_gait).collect();
     let compared = set.compared();
     let analyzed = set.analyzed();
-    let analyzed = set.without_duplicates(&compared, analyzed);
-    let surveyed = |((clip, found), gait): ((&HumanClip, &AnalyzedClip), SourceGait)| SurveyedSource {
-        source: found.record(clip),
-        gait,
+    let TargetedClips { clips, body } = set;
+    let parts = by_style(clips, compared, analyzed).into_iter().map(|part| part.without_duplicates(&body));
+    let records = |part: StylePart| {
+        let StylePart { indices, clips, analyzed, .. } = part;
+        let record = |((index, clip), found): ((usize, HumanClip), AnalyzedClip)| {
+            (index, clip.style.clone(), found.record(&clip))
+        };
+        indices.into_iter().zip(clips).zip(analyzed).map(record).collect::<Vec<_>>()
     };
-    set.clips.iter().zip(&analyzed).zip(gaits).map(surveyed).collect()
+    let mut records: Vec<(usize, String, SourceRecord)> = parts.flat_map(records).collect();
+    records.sort_by_key(|(index, ..)| *index);
+    let surveyed = |((_, style, source), gait)| SurveyedSource { source, style, gait };
+    records.into_iter().zip(gaits).map(surveyed).collect()
 }
 
 fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Error> {

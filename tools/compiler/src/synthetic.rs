@@ -190,6 +190,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         low_parts: Vec::new(),
         unfit: None,
         choices: Choices::default(),
+        style: String::new(),
     }
 }
 

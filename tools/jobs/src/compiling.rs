@@ -19,6 +19,8 @@ pub struct Overrides {
     pub velocity_hull: Option<Construction>,
     /// Most examples, mirrors not counted; by default as the manifest states.
     pub max_examples: Option<NonZeroUsize>,
+    /// The styles whose clips are used; empty for all.
+    pub styles: Vec<String>,
     /// Whether the buffers of glTF files may lie outside their folders; by default they may not.
     pub outside: Outside,
 }
@@ -38,6 +40,9 @@ pub fn compile(
     check_output(output, paths, &manifest)?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
+    }
+    if !overrides.styles.is_empty() {
+        manifest.keep_styles(&overrides.styles)?;
     }
     manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
     let work = Work::begin(observer, "files", manifest.clips.len());

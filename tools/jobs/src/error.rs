@@ -119,6 +119,14 @@ pub enum JobError {
         /// Longest duration of a change between blending and semi-procedural locomotion, s.
         transition_s: f32,
     },
+    /// A scenario names a style that the motion lacks.
+    #[error("there is no style `{style}`; {}", styles(existing))]
+    NoStyle {
+        /// The style.
+        style: String,
+        /// The styles of the motion.
+        existing: Vec<String>,
+    },
     /// An agent changes its state again and again within one step.
     #[error(
         "after {time_s:.2} s agent {agent} changes between states `{states}` without end within one step; \
@@ -213,6 +221,14 @@ pub enum JobError {
     /// A picture cannot be drawn or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+}
+
+/// The styles that a database has, and what to do.
+fn styles(existing: &[String]) -> String {
+    match existing {
+        [] => "the database has none; remove `style`, or compile clips of this style (docs/manifest.md)".to_owned(),
+        names => format!("the database has {}; name one of these", names.join(", ")),
+    }
 }
 
 impl JobError {

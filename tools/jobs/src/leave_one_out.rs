@@ -168,6 +168,8 @@ fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
     let rows = |index: &usize| index * PHASE_COUNT..(index + 1) * PHASE_COUNT;
     let rotations = |index: &usize| index * PHASE_COUNT * JOINT_COUNT..(index + 1) * PHASE_COUNT * JOINT_COUNT;
     MotionDb {
+        style: String::new(),
+        further_styles: Vec::new(),
         skeleton: db.skeleton.clone(),
         sources: Vec::new(),
         rows: Rows {

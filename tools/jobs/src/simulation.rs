@@ -62,13 +62,21 @@ pub struct PreparedSimulation {
 /// Where the planner looks less far ahead than a change of synthesis takes, or the system has too little memory.
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
     check_memory(scenario.agents.len())?;
+    if let Some(style) = scenario.styles.iter().find(|style| db.of_style(style).is_none()) {
+        let existing = db.styles().map(|db| db.style.clone()).filter(|style| !style.is_empty()).collect();
+        return Err(JobError::NoStyle { style: style.clone(), existing });
+    }
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
     if let Some(error) = simulation.route_error() {
         return Err(error.clone().into());
     }
-    note_missing_motions(&db, simulation.database(), observer);
+    note_missing_motions(&db, simulation.database(), "", observer);
+    for (style, complete) in scenario.styles.iter().zip(simulation.style_databases()) {
+        note_missing_motions(db.of_style(style).unwrap_or(&db), complete, &format!("style `{style}`: "), observer);
+    }
     note_closed_passages(&scenario, observer);
     check_horizon(simulation.database(), &scenario)?;
+    simulation.style_databases().try_for_each(|db| check_horizon(db, &scenario))?;
     Ok(PreparedSimulation { scenario, simulation, character_checksums: Vec::new() })
 }
 
@@ -115,15 +123,15 @@ impl PreparedSimulation {
     }
 }
 
-/// Notes where bodies move by more than the clips of their database, or can reach no goal with them.
-fn note_missing_motions(db: &MotionDb, complete: &MotionDb, observer: &Observer) {
+/// Notes where bodies move by more than the clips of their database, or can reach no goal with them; `of` names a style.
+fn note_missing_motions(db: &MotionDb, complete: &MotionDb, of: &str, observer: &Observer) {
     if !coverage::walks_ahead(db) {
         let note = "none of these clips walks ahead, so no agent reaches a goal; add a walk, and compile again";
-        observer(JobEvent::Note(note));
+        observer(JobEvent::Note(&format!("{of}{note}")));
     }
     if let Some((walk, count)) = library::deformed_walk(db, complete) {
         let missing = "these clips lack motions that a crowd needs (fbcrowd inspect names them)";
-        observer(JobEvent::Note(&format!("{missing}; {walk} is deformed to {count} of them")));
+        observer(JobEvent::Note(&format!("{of}{missing}; {walk} is deformed to {count} of them")));
     }
 }
 

@@ -32,7 +32,7 @@ impl Stopwatch {
         }
     }
 
-    /// All stages in the order in which they began. The last one ends now.
+    /// All stages in the order in which they began, those of one name together. The last one ends now.
     pub fn stage_times(&self) -> Vec<StageTime> {
         let end = Instant::now();
         let begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
@@ -41,6 +41,13 @@ impl Stopwatch {
             name,
             seconds: (end - start).as_secs_f64(),
         };
-        begun.iter().zip(ends).map(stage_time).collect()
+        let mut times: Vec<StageTime> = Vec::new();
+        for time in begun.iter().zip(ends).map(stage_time) {
+            match times.iter_mut().find(|other| other.name == time.name) {
+                Some(other) => other.seconds += time.seconds,
+                None => times.push(time),
+            }
+        }
+        times
     }
 }

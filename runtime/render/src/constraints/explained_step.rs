@@ -56,7 +56,7 @@ impl<'a> ExplainedStep<'a> {
 /// Greatest velocity component that is shown. It does not depend on the step, so all pictures of a sequence have equal
 /// axes.
 fn axis_limit_mps(step: &RecordedStep, agent: usize) -> f32 {
-    let hull = step.header().velocity_hull();
+    let hull = step.velocity_hull(agent);
     let corners_mps = hull.turning_mps.iter().chain(&hull.holding_mps);
     let fastest_mps = corners_mps.map(|corner_mps: &Vec2| corner_mps.length()).fold(0.0, f32::max);
     let preferred_mps = step.spec(agent).preferred_speed_mps.max(MIN_PREFERRED_MPS);

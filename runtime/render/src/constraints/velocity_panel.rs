@@ -133,7 +133,7 @@ impl VelocitySpace<'_> {
 
     /// Draws turning set, holding set (the active one stronger), sharp-turn edges and the greatest speed.
     fn draw_sets(&mut self) {
-        let hull = self.explained.step.header().velocity_hull();
+        let hull = self.explained.step.velocity_hull(self.explained.agent);
         let (forward, factor) = (self.forward(), self.explained.step.speed_factor(self.explained.agent));
         let sets = [(VelocitySet::Holding, &hull.holding_mps), (VelocitySet::Turning, &hull.turning_mps)];
         for (set, corners_mps) in sets {

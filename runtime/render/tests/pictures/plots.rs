@@ -41,6 +41,8 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
     let dimension = u32::from(speeds_mps.len() > 1);
     let corners = speeds_mps.iter().map(|speed| Vec2::new(*speed, 0.0)).collect();
     MotionDb {
+        style: String::new(),
+        further_styles: Vec::new(),
         skeleton: header.skeleton().clone(),
         sources: Vec::new(),
         examples: examples.collect(),

@@ -129,7 +129,10 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
         view,
         ..Scenario::of(agents)
     };
-    Header::of(RecordedDatabase { checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull() }, scenario)
+    Header::of(
+        RecordedDatabase { checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull(), style: String::new() },
+        scenario,
+    )
 }
 
 /// All agents of a scene at a time: each walks to its goal on an arc to the right of the straight path.

@@ -21,9 +21,10 @@ pub fn outside_walls(from_m: Vec2, root: Root, wall_radius_m: f32, obstacles: &O
     Root { position_m: obstacles.clamp_path(from_m, root.position_m, wall_radius_m), ..root }
 }
 
-/// Updates what planners read of the agents from the bodies and plans of a step.
-pub(crate) fn synchronize(agents: &mut Agents, context: &SynthesisContext, dt_s: f32) {
+/// Updates what planners read of the agents from the bodies and plans of a step; `contexts` are those of all styles.
+pub(crate) fn synchronize(agents: &mut Agents, contexts: &[SynthesisContext], dt_s: f32) {
     for (index, (body, stature)) in agents.bodies.iter().zip(&agents.statures).enumerate() {
+        let context = contexts.get(agents.styles[index] as usize).unwrap_or(&contexts[0]);
         let root = stature.root_of_crowd(body.root);
         let moved_m: Vec2 = root.position_m - agents.positions_m[index];
         let committed_mps = body.committed_mps(context).map(|committed_mps| stature.speed_factor() * committed_mps);

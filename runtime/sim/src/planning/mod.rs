@@ -20,4 +20,4 @@ pub use plan::{PLANTED_CONTACT, Plan, Stance, StanceFoot, VelocitySet};
 pub use plan_all::{CrowdPlanningMemory, plan_all};
 pub use plan_explanation::PlanExplanation;
 pub use planner::{Planner, PlannerMemory, plan, ranking_horizon_s};
-pub use world_view::{OwnWalls, WorldView};
+pub use world_view::{OwnConstraints, OwnWalls, WorldView};

@@ -50,6 +50,7 @@ use crate::world::one_way::OneWayZone;
 ///     one_way: &[],
 ///     priorities: None,
 ///     constraints: &MotionConstraints::new(&hull),
+///     own_constraints: None,
 ///     speed_factors: None,
 ///     dt_s: 0.1,
 ///     bodies: true,
@@ -90,6 +91,8 @@ pub struct WorldView<'a> {
     pub priorities: Option<&'a [f32]>,
     /// Constraints of the database's velocity sets.
     pub constraints: &'a MotionConstraints,
+    /// Constraints of the agents whose bodies move in another style; none where there are no such agents.
+    pub own_constraints: Option<OwnConstraints<'a>>,
     /// Velocities of each body, divided by those of a body of the skeleton's size. None: all are 1.
     pub speed_factors: Option<&'a [f32]>,
     /// Time step, s.
@@ -107,7 +110,22 @@ pub struct OwnWalls<'a> {
     pub zone_walls: &'a ZoneWalls,
 }
 
+/// The constraints of each style's velocity sets.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnConstraints<'a> {
+    /// Style of each agent, by index.
+    pub styles: &'a [u32],
+    /// The constraints of each style.
+    pub constraints: &'a [MotionConstraints],
+}
+
 impl<'a> WorldView<'a> {
+    /// The constraints of an agent's body.
+    pub fn constraints_of(&self, agent: usize) -> &'a MotionConstraints {
+        let own = self.own_constraints.and_then(|own| own.constraints.get(own.styles[agent] as usize));
+        own.unwrap_or(self.constraints)
+    }
+
     /// The walls of an agent.
     pub fn walls_of(&self, agent: usize) -> &'a Obstacles {
         let own = self.own_walls.and_then(|own| own.zone_walls.of(own.closed_zones[agent]));

@@ -51,6 +51,9 @@ pub struct RecordedDatabase {
     pub skeleton: Skeleton,
     /// Velocity sets of the database.
     pub velocity_hull: VelocityHull,
+    /// Style of the motion; empty for agents without a style.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub style: String,
 }
 
 /// A character that bodies are drawn as.
@@ -67,10 +70,19 @@ fn default_states() -> Vec<String> {
 }
 
 impl Header {
-    /// The header of a scenario with bodies from one database.
+    /// The header of a scenario with bodies from one database, and its styles that the scenario names.
     pub fn new(db: &MotionDb, database_checksum: u32, scenario: Scenario) -> Self {
-        let (skeleton, velocity_hull) = (db.skeleton.clone(), db.velocity_hull.clone());
-        Self::of(RecordedDatabase { checksum: database_checksum, skeleton, velocity_hull }, scenario)
+        let database = |db: &MotionDb, style: String| RecordedDatabase {
+            checksum: database_checksum,
+            skeleton: db.skeleton.clone(),
+            velocity_hull: db.velocity_hull.clone(),
+            style,
+        };
+        let of_style = |style: &String| database(db.of_style(style).unwrap_or(db), style.clone());
+        let styles: Vec<RecordedDatabase> = scenario.styles.iter().map(of_style).collect();
+        let mut header = Self::of(database(db, String::new()), scenario);
+        header.databases.extend(styles);
+        header
     }
 
     /// The header of a scenario with bodies from one recorded database. The checksums of its characters are 0.
@@ -81,7 +93,7 @@ impl Header {
         Self { databases: vec![database], characters, states, scenario }
     }
 
-    /// The bodies of the first database, by which all agents move today.
+    /// The bodies of the first database; all styles have the same.
     ///
     /// # Panics
     /// If the header has no database; that of an opened recording has one.
@@ -89,7 +101,7 @@ impl Header {
         &self.databases[0].skeleton
     }
 
-    /// The velocity sets of the first database.
+    /// The velocity sets of the first database, by which agents without a style move.
     ///
     /// # Panics
     /// If the header has no database; that of an opened recording has one.
@@ -119,6 +131,9 @@ impl Header {
         ];
         if let Some((what, count, _)) = counts.iter().find(|(_, count, range)| !range.contains(count)) {
             return Err(format!("the header has {count} {what}"));
+        }
+        if self.scenario.agents.iter().any(|agent| agent.style as usize >= self.databases.len()) {
+            return Err("the style of an agent has no database".into());
         }
         let mut names = self.states.iter().chain(self.characters.iter().map(|character| &character.name));
         if names.any(|name| name.len() > NAME_MAX_BYTES) {

@@ -10,11 +10,12 @@
 use std::sync::Arc;
 
 use glam::Vec2;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::Stance;
 use crate::planning::planner::ranking_horizon_s;
-use crate::planning::world_view::{OwnWalls, WorldView};
+use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
 use crate::population::AgentId;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
@@ -35,7 +36,8 @@ pub struct Replay<'a> {
     obstacles: Arc<Walls>,
     state_zones: StateZones,
     one_way: Vec<OneWayZone>,
-    constraints: MotionConstraints,
+    /// The constraints of each database.
+    constraints: Vec<MotionConstraints>,
 }
 
 /// The walls of a step.
@@ -68,6 +70,8 @@ pub struct RecordedStep<'a> {
     stepping_back_s: Vec<f32>,
     neighbours: NeighbourSearch,
     closed_zones: Vec<u32>,
+    /// The database by which each body moves.
+    databases: Vec<u32>,
     priorities: Option<Vec<f32>>,
     speed_factors: Option<Vec<f32>>,
     walls: Arc<Walls>,
@@ -83,9 +87,11 @@ impl<'a> Replay<'a> {
     /// Prepares what all steps share.
     pub fn new(recording: &'a Recording) -> Self {
         let scenario = &recording.header().scenario;
+        let databases = recording.header().databases.iter();
+        let constraints = databases.map(|database| MotionConstraints::new(&database.velocity_hull));
         Self {
             recording,
-            constraints: MotionConstraints::new(recording.header().velocity_hull()),
+            constraints: constraints.collect(),
             obstacles: Arc::new(Walls::new(scenario, &[])),
             state_zones: StateZones::new(scenario),
             one_way: scenario.one_way_zones(),
@@ -149,6 +155,7 @@ impl<'a> Replay<'a> {
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
             closed_zones: before.iter().zip(&after).map(closed_zones).collect(),
+            databases: before.iter().map(|agent| life(agent).database).collect(),
             priorities,
             speed_factors,
             walls: self.walls(number + 1),
@@ -189,6 +196,11 @@ impl RecordedStep<'_> {
         self.replay.header()
     }
 
+    /// The velocity sets of an agent's database, by index.
+    pub fn velocity_hull(&self, agent: usize) -> &VelocityHull {
+        &self.header().databases[self.databases[agent] as usize].velocity_hull
+    }
+
     /// Index of an agent among those of the step; none of one that is not present before and after it.
     pub fn index_of(&self, id: AgentId) -> Option<usize> {
         self.before.binary_search_by_key(&id, |agent| agent.id).ok()
@@ -223,7 +235,9 @@ impl RecordedStep<'_> {
                 .then_some(OwnWalls { closed_zones: &self.closed_zones, zone_walls: &self.walls.zone_walls }),
             one_way: &self.replay.one_way,
             priorities: self.priorities.as_deref(),
-            constraints: &self.replay.constraints,
+            constraints: &self.replay.constraints[0],
+            own_constraints: (self.replay.constraints.len() > 1)
+                .then_some(OwnConstraints { styles: &self.databases, constraints: &self.replay.constraints }),
             speed_factors: self.speed_factors.as_deref(),
             dt_s,
             bodies: coupling.plans_for_bodies(),

@@ -57,6 +57,15 @@ pub struct AgentSpec {
     /// Whether the radius is that of the character that the agent wears, because the scenario states none.
     #[serde(default, skip_serializing_if = "is_stated")]
     pub wears_radius: bool,
+    /// Style of the body's motion: k stands for the k-th of the scenario's `styles`, counted from 1; 0: no style.
+    #[serde(default, skip_serializing_if = "has_no_style")]
+    pub style: u32,
+}
+
+/// Whether a style is none; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn has_no_style(style: &u32) -> bool {
+    *style == 0
 }
 
 /// Whether a radius is no character's; recordings leave it out.
@@ -125,6 +134,7 @@ impl Default for AgentSpec {
             stature: 1.0,
             characters: 0,
             wears_radius: false,
+            style: 0,
             group: None,
         }
     }

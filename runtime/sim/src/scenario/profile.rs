@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::behaviour::Distribution;
 use crate::behaviour::choice::draw;
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{enters_all, is_0};
+use crate::scenario::agent_spec::{enters_all, has_no_style, is_0};
 use crate::scenario::characters::character_spec::wears_any;
 
 /// A kind of agents, and its share among those of a table.
@@ -32,6 +32,9 @@ pub struct Profile {
     /// Characters that the agents may wear, by bits as in [`AgentSpec`](crate::AgentSpec).
     #[serde(skip_serializing_if = "wears_any")]
     pub characters: u64,
+    /// Style of the agents' motion, as in [`AgentSpec`](crate::AgentSpec); 0: that of the table.
+    #[serde(skip_serializing_if = "has_no_style")]
+    pub style: u32,
 }
 
 /// A size of bodies, relative to the database's skeleton, and what follows it.
@@ -64,6 +67,8 @@ pub struct DrawnNumbers {
     pub characters: u64,
     /// Whether the radius is that of the character that the agent wears.
     pub wears_radius: bool,
+    /// Style of the agent's motion, as in [`AgentSpec`](crate::AgentSpec).
+    pub style: u32,
 }
 
 impl DrawnNumbers {
@@ -72,7 +77,15 @@ impl DrawnNumbers {
         let indices: Vec<usize> = (0..profiles.len()).collect();
         let Some(index) = draw(&indices, |index| profiles[index].weight, random) else { return self };
         let Profile {
-            preferred_speed_mps, radius_m, pre_movement_s, stature, closed_zones, priority, characters, ..
+            preferred_speed_mps,
+            radius_m,
+            pre_movement_s,
+            stature,
+            closed_zones,
+            priority,
+            characters,
+            style,
+            ..
         } = profiles[index];
         // Every number takes a generator of its own, so that a profile without one changes no other.
         let [of_speed, of_radius, of_time] = std::array::from_fn(|_| random.next_u64());
@@ -92,6 +105,7 @@ impl DrawnNumbers {
             stature: size,
             characters,
             wears_radius: self.wears_radius && radius_m.is_none(),
+            style: if style == 0 { self.style } else { style },
         }
     }
 }

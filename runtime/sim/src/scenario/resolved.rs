@@ -100,6 +100,9 @@ pub struct Scenario {
     /// Characters that bodies are drawn as; plain bodies where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub characters: Vec<CharacterSpec>,
+    /// Styles of motion that agents name, by the order of their names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub styles: Vec<String>,
     /// Cameras, by which pictures at eye height are taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cameras: Vec<CameraSpec>,
@@ -160,6 +163,7 @@ impl Scenario {
             markings: Vec::new(),
             labels: Vec::new(),
             characters: Vec::new(),
+            styles: Vec::new(),
             cameras: Vec::new(),
             shot: None,
             variation: None,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{
-    AgentSpec, AtGoal, enters_all, follows_path, is_0, is_of_skeleton, is_stated, of_skeleton,
+    AgentSpec, AtGoal, enters_all, follows_path, has_no_style, is_0, is_of_skeleton, is_stated, of_skeleton,
 };
 use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::due_times::DueTimes;
@@ -85,6 +85,9 @@ pub struct SourceSpec {
     /// Whether the radius is that of the character that an agent wears, because the scenario states none.
     #[serde(default, skip_serializing_if = "is_stated")]
     pub wears_radius: bool,
+    /// Style of the agents' motion, as in [`AgentSpec`].
+    #[serde(default, skip_serializing_if = "has_no_style")]
+    pub style: u32,
     /// Sizes of the groups in which agents appear; none: each alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub groups: Option<GroupSizes>,
@@ -118,6 +121,7 @@ impl Default for SourceSpec {
             stature: 1.0,
             characters: 0,
             wears_radius: false,
+            style: 0,
             groups: None,
         }
     }
@@ -144,6 +148,7 @@ impl SourceSpec {
             stature: self.stature,
             characters: self.characters,
             wears_radius: self.wears_radius,
+            style: self.style,
             group: None,
         }
     }
@@ -160,6 +165,7 @@ impl SourceSpec {
             stature: self.stature,
             characters: self.characters,
             wears_radius: self.wears_radius,
+            style: self.style,
         };
         let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
         Self {
@@ -172,6 +178,7 @@ impl SourceSpec {
             stature: numbers.stature,
             characters: numbers.characters,
             wears_radius: numbers.wears_radius,
+            style: numbers.style,
             ..self.clone()
         }
     }

@@ -11,7 +11,7 @@ use crate::planning::mcn::orientation;
 use crate::population::{Population, RadiusChange, SignalChange};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, context_of};
 
 /// Rounding of discs that are meant to touch a wall, m.
 const TOUCH_M: f32 = 1e-4;
@@ -110,9 +110,10 @@ impl Simulation {
 
     /// Moves agents to where their states want them at once; there they stand.
     pub(super) fn teleport(&mut self) {
-        let Self { agents, population, crowd, scenario, context, steps, .. } = self;
+        let Self { agents, population, crowd, scenario, contexts, steps, .. } = self;
         for &(id, position_m) in &crowd.teleports {
             let Ok(index) = agents.ids.binary_search(&id) else { continue };
+            let context = context_of(contexts, agents.styles[index]);
             agents.stand_at(index, position_m, scenario, context);
             population.agents[id.index()].teleports.push(*steps);
         }

@@ -8,7 +8,7 @@ use crate::population::{AgentId, AgentLife};
 use crate::route::arrival::is_at_goal;
 use crate::scenario::ranges::{AGENTS_MAX, check_agent};
 use crate::scenario::{AgentSpec, AtGoal, SourceSpec};
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, context_of};
 
 /// Rounding of discs that are meant to touch, m.
 const TOUCH_M: f32 = 1e-4;
@@ -17,11 +17,14 @@ const TRIES: usize = 10;
 
 impl Simulation {
     /// Adds an agent, which stands at its start and takes part from the next step on. None where it has no room: its
-    /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, where it stays out of a set
-    /// of zones that no agent or source of the scenario stays out of, or a million have been.
+    /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, where its style is none of
+    /// the scenario's, where it stays out of a set of zones that no agent or source of the scenario stays out of, or a
+    /// million have been.
     pub fn add(&mut self, spec: AgentSpec) -> Option<AgentId> {
         let is_state = spec.state == 0 || (spec.state as usize) < self.scenario.behaviour.states.len();
-        let is_valid = is_state && check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
+        let is_style = (spec.style as usize) < self.contexts.len();
+        let is_valid =
+            is_state && is_style && check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
         // Walls and meshes are made for the sets of the scenario.
         let has_walls = spec.closed_zones == 0 || self.zone_walls.of(spec.closed_zones).is_some();
         let has_room = is_valid && has_walls && self.has_room(&spec);
@@ -160,7 +163,7 @@ impl Simulation {
         self.has_priorities |= spec.priority != 0.0;
         self.has_statures |= spec.stature != 1.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
-        self.agents.push(id, &spec, &self.scenario, &self.context);
+        self.agents.push(id, &spec, &self.scenario, context_of(&self.contexts, spec.style));
         let character = self.scenario.character_of(id.0, &spec);
         self.population.agents.push(AgentLife { character, ..AgentLife::new(spec, source, self.steps) });
         self.record_agent(self.agents.count() - 1);

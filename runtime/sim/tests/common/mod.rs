@@ -57,7 +57,15 @@ pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
         obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
         ..Scenario::of(agents)
     };
-    Header::of(RecordedDatabase { checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default() }, scenario)
+    Header::of(
+        RecordedDatabase {
+            checksum: 7,
+            skeleton: skeleton(),
+            velocity_hull: VelocityHull::default(),
+            style: String::new(),
+        },
+        scenario,
+    )
 }
 
 /// A body that stands upright at a position.

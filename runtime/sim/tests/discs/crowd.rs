@@ -161,6 +161,7 @@ impl DiscCrowd {
             one_way: &[],
             priorities: None,
             constraints: &MotionConstraints::new(setting.hull),
+            own_constraints: None,
             speed_factors: None,
             dt_s: setting.dt_s,
             bodies: matches!(setting.response, DiscResponse::Lagging(..)),

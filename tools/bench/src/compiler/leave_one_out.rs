@@ -44,6 +44,8 @@ pub struct Details {
 pub struct ClipSet {
     /// Name of the set.
     pub name: &'static str,
+    /// The style of the examples, of a set that has several; empty of a set without.
+    pub style: String,
     /// How near the others come to each example, as `fbcrowd inspect --leave-one-out` has it.
     pub leave_one_out: LeaveOneOut,
 }
@@ -54,12 +56,17 @@ pub struct ClipSet {
 /// If the clips cannot be read, or give no database.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
-    let set = |name, db: MotionDb| ClipSet { name, leave_one_out: leave_one_out(&db) };
-    let sets = vec![
-        set("Marine", compiled(&marine_files(folder))?),
-        set("Bandai Namco", compiled(&motiondb_compiler::clip_files(&folder.join("bandai_namco"))?)?),
-        set("bundled", bundled()?),
+    // Each style of a set is blended by itself.
+    let sets_of = |(name, db): (&'static str, MotionDb)| {
+        let of_style = |db: &MotionDb| ClipSet { name, style: db.style.clone(), leave_one_out: leave_one_out(db) };
+        db.styles().map(of_style).collect::<Vec<ClipSet>>()
+    };
+    let databases = [
+        ("Marine", compiled(&marine_files(folder))?),
+        ("Bandai Namco", compiled(&motiondb_compiler::clip_files(&folder.join("bandai_namco"))?)?),
+        ("bundled", bundled()?),
     ];
+    let sets: Vec<ClipSet> = databases.into_iter().flat_map(sets_of).collect();
     let all = sets.iter().flat_map(|set| &set.leave_one_out.examples);
     let better = share(all, |found| found.blend_is_better());
     let marine = &sets[0].leave_one_out;
@@ -90,8 +97,8 @@ fn text(details: &Details) -> String {
         let medians =
             |blended: Option<f32>, nearest: Option<f32>| format!("{} cm, nearest {} cm", cm(blended), cm(nearest));
         format!(
-            "{:<14}{better:3} of {:3} examples better by the blend; median {}; of each joint {}; {} on the hull's corners\n",
-            set.name,
+            "{:<26}{better:3} of {:3} examples better by the blend; median {}; of each joint {}; {} on the hull's corners\n",
+            format!("{} {}", set.name, set.style).trim_end(),
             found.examples.len(),
             medians(found.median_blended_rmse_m, found.median_nearest_rmse_m),
             medians(found.median_joint_blended_rmse_m, found.median_joint_nearest_rmse_m),

@@ -36,10 +36,12 @@ pub(crate) fn assemble(
     observer(CompileEvent::Stage("blend space"));
     let flaws: Vec<f64> = cycles.iter().map(|named| named.flaws).collect();
     let blend_space = blend_space_of_best(&parameters, &flaws);
-    note_coincident(&coincident_pairs(&parameters, &blend_space), &examples, &mut sources);
+    note_coincident(&coincident_pairs(&parameters, &blend_space), &cycles, body, &mut sources);
     observer(CompileEvent::Stage("assembly"));
     let action_poses = actions.iter().flat_map(|action| &action.frames).map(|frame| &frame.pose);
     let mut db = MotionDb {
+        style: String::new(),
+        further_styles: Vec::new(),
         skeleton: skeleton(body, cycles.iter().flat_map(|named| &named.cycle.rows).chain(action_poses)),
         correspondence: None,
         actions: cycles.first().map_or_else(Vec::new, |first| stored_actions(actions, &first.cycle.rows[0])),

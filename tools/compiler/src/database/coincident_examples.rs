@@ -7,7 +7,15 @@ use glam::Vec3;
 use motiondb::blend_space::BlendSpace;
 use motiondb::blend_space::triangulation::build;
 use motiondb::diagnostic::{Diagnostic, Note};
-use motiondb::motion::{MotionExample, Parameters, SourceRecord};
+use motiondb::motion::{Parameters, SourceRecord};
+use motiondb::statistics::mean;
+
+use crate::cycle::gait_cycle::GaitCycle;
+use crate::retarget::human_clip::{HumanBody, HumanPose};
+use crate::select::named_cycles::NamedCycle;
+
+/// Mean distance of the joints from which on two cycles of equal parameters differ in manner, m.
+const OTHER_MANNER_M: f64 = 0.06;
 
 /// The blend space over the `parameters` of examples; of coincident examples the one with the fewest `flaws` is the
 /// corner, not the first.
@@ -49,13 +57,32 @@ pub(crate) fn coincident_pairs(parameters: &[Parameters], space: &BlendSpace) ->
     (0..parameters.len()).filter(|&index| !is_corner[index]).filter_map(nearest).collect()
 }
 
-/// Adds a note to the source of each recorded example that another one is blended for.
-pub(crate) fn note_coincident(pairs: &[[usize; 2]], examples: &[MotionExample], sources: &mut [SourceRecord]) {
-    let pairs = pairs.iter().map(|pair| pair.map(|index| &examples[index]));
+/// Adds a note to the source of each recorded example that another one is blended for: whether both move alike, by the
+/// mean distance of their joints.
+pub(crate) fn note_coincident(
+    pairs: &[[usize; 2]],
+    cycles: &[NamedCycle],
+    body: &HumanBody,
+    sources: &mut [SourceRecord],
+) {
+    let pairs = pairs.iter().map(|pair| pair.map(|index| &cycles[index]));
     for [unused, blended] in pairs.filter(|[unused, _]| !unused.mirrored) {
-        let note = Note::CoincidentExample { example: unused.name.clone(), blended: blended.name.clone() };
+        let (example, other) = (unused.name.clone(), blended.name.clone());
+        let distance_m = distance_m(&unused.cycle, &blended.cycle, body);
+        let note = if distance_m > OTHER_MANNER_M {
+            Note::CoincidentManners { example, blended: other, distance_cm: (100.0 * distance_m) as f32 }
+        } else {
+            Note::CoincidentExample { example, blended: other }
+        };
         sources[unused.source as usize].diagnostics.push(Diagnostic::Note(note));
     }
+}
+
+/// Mean distance of the joints of two cycles at equal phases, m.
+fn distance_m(one: &GaitCycle, other: &GaitCycle, body: &HumanBody) -> f64 {
+    let joints = |pose: &HumanPose| pose.forward_kinematics(body);
+    let distances = one.rows.iter().zip(&other.rows).map(|(a, b)| joints(a).mean_distance_m(&joints(b)));
+    mean(distances).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -78,6 +78,14 @@ pub enum CompileError {
         /// The stated kind.
         kind: ActionKind,
     },
+    /// There is no clip of a style that alone is to be compiled.
+    #[error("there is no style `{style}`; {}", of_styles(styles))]
+    NoStyle {
+        /// The style.
+        style: String,
+        /// The styles of the clips, the nearest name first.
+        styles: Vec<String>,
+    },
     /// The database breaks an invariant: a defect of the clips that no earlier stage detects.
     #[error(
         "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"
@@ -119,6 +127,15 @@ pub(crate) fn transition_remedy(kind: ActionKind) -> String {
         ActionKind::Pivot => "the body must walk, turn by at least 60° within 3 s, and walk on",
     };
     format!("{shows}; state another kind (start, stop, turn, step, pivot), or remove the key")
+}
+
+/// The styles that a set has, and what to do.
+fn of_styles(styles: &[String]) -> String {
+    match styles {
+        [] => "the clips have none; state `style` in a manifest.toml, or put each style in a folder of its name"
+            .to_owned(),
+        names => format!("the clips have {}", names.join(", ")),
+    }
 }
 
 /// One clause for each rejection and each source.

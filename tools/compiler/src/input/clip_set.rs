@@ -1,5 +1,7 @@
 //! Manifest → the set of clips to compile: each clip is imported, in parallel, and gets a unique name.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use rayon::prelude::*;
 
 use crate::error::{CompileError, Rejection};
@@ -43,7 +45,8 @@ pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipS
     };
     let imports: Vec<Result<Vec<ImportedClip>, Rejection>> = manifest.clips.par_iter().map(import).collect();
     let mut set = ClipSet::default();
-    for (settings, imported) in manifest.clips.iter().zip(imports) {
+    let styles = manifest.styles();
+    for ((settings, style), imported) in manifest.clips.iter().zip(styles).zip(imports) {
         let imported = match imported {
             Ok(imported) => imported,
             Err(rejection) => {
@@ -53,7 +56,7 @@ pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipS
         };
         for ImportedClip { clip, outcome, .. } in imported {
             match outcome {
-                Ok(human) => set.clips.push(human),
+                Ok(human) => set.clips.push(HumanClip { style: style.clone(), ..human }),
                 Err(reason) => {
                     manifest.check_reason(settings, &reason)?;
                     set.reject(Rejection { file: settings.path.display().to_string(), clip, reason })?;
@@ -68,9 +71,20 @@ pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipS
 
 /// Sorts clips into the order of a database's sources and makes their names unique.
 ///
-/// Neither folders nor the order of arguments change the result: files of equal names are sorted by their content.
+/// Neither folders nor the order of arguments change the result: files of equal names are sorted by their style and
+/// their content. Clips of one name in several styles have their style before it.
 pub(crate) fn sort(clips: &mut [HumanClip]) {
-    let names = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone(), clip.name.clone());
+    let names =
+        |clip: &HumanClip| [&clip.source.file, &clip.source.clip, &clip.name, &clip.style].map(String::to_owned);
     clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.compare_content(b)));
+    let mut styles_of_names: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for clip in clips.iter() {
+        styles_of_names.entry(clip.name.clone()).or_default().insert(clip.style.clone());
+    }
+    for clip in clips.iter_mut().filter(|clip| !clip.style.is_empty()) {
+        if styles_of_names.get(&clip.name).is_some_and(|styles| styles.len() > 1) {
+            clip.name = format!("{} {}", clip.style, clip.name);
+        }
+    }
     unique_names::make_unique(clips.iter_mut().map(|clip| &mut clip.name));
 }

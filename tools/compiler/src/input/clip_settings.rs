@@ -55,6 +55,8 @@ pub struct ClipSettings {
     pub takes_any_posture: bool,
     /// The kind of transition that the clip shows; it then gives no example.
     pub transition: Option<ActionKind>,
+    /// The style, such as `elderly`; empty for none; where `None`, the one that the path names.
+    pub style: Option<String>,
     /// Whether a glTF file's buffers may lie outside its folder; no manifest can allow it.
     pub outside: Outside,
     /// Positions of these values in the manifest's text, for messages.

@@ -4,7 +4,7 @@
 //! then, as [`ClipSet`], the imported clips in the order of a database, each with a unique name.
 //!
 //! Read `clip_settings` and `options`, then `manifest`, then `clip_set`. `clip_files` finds clips in folders;
-//! `unique_names` and `name_suggestions` help with names.
+//! `style_names` finds styles in paths; `unique_names` and `name_suggestions` help with names.
 
 pub(crate) mod clip_files;
 pub(crate) mod clip_set;
@@ -12,6 +12,7 @@ pub(crate) mod clip_settings;
 pub mod manifest;
 pub(crate) mod name_suggestions;
 pub(crate) mod options;
+pub(crate) mod style_names;
 pub(crate) mod unique_names;
 
 pub use clip_files::{clip_files, foreign_files, linked_files};

@@ -35,6 +35,8 @@ pub struct HumanClip {
     pub unfit: Option<Unfit>,
     /// What a manifest states about the clip's part in the set.
     pub choices: Choices,
+    /// The style, such as `elderly`; empty where none is stated or found.
+    pub style: String,
 }
 
 /// What a manifest states about a clip's part in the set.

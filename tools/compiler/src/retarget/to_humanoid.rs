@@ -72,6 +72,7 @@ pub(crate) fn to_human(
         low_parts,
         unfit: None,
         choices: Choices::default(),
+        style: String::new(),
     })
 }
 

@@ -1,5 +1,6 @@
 //! `fbcrowd check`: a scenario before it is simulated, as figures and as one picture.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use fbcrowd_jobs::camera_file;
@@ -12,6 +13,7 @@ use motiondb::files::database_file;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::png_path::check_is_png;
+use crate::cmd::simulate::style_names;
 use crate::report::crowd::scene_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -45,7 +47,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let (mut scenario, motion) = scenario::read_plan(&args.scenario)?;
     if scenario::names_motion(&args.scenario)? {
-        check_motion(motion?)?;
+        scenario::check_styles(&args.scenario, &styles_of(motion?)?)?;
     }
     let camera_files = camera_file::files(&scenario, &args.scenario);
     camera_file::resolve(&mut scenario, &args.scenario, args.outside.into())?;
@@ -70,11 +72,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-/// Checks that the motion of a scenario can be read: its database, or the list of its clips.
-fn check_motion(motion: MotionSource) -> Result<(), Failure> {
-    match motion {
-        MotionSource::Database(path) => database_file::load(&path).map(drop)?,
-        MotionSource::Clips(clips) => clip_paths::manifest(&[clips]).map(drop)?,
-    }
-    Ok(())
+/// The styles of a scenario's motion, which must be readable: of its database, or of the list of its clips.
+fn styles_of(motion: MotionSource) -> Result<Vec<String>, Failure> {
+    Ok(match motion {
+        MotionSource::Database(path) => style_names(&database_file::load(&path)?.0),
+        MotionSource::Clips(clips) => {
+            let names: BTreeSet<String> = clip_paths::manifest(&[clips])?.styles().into_iter().collect();
+            names.into_iter().collect()
+        }
+    })
 }

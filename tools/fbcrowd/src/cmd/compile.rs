@@ -52,6 +52,9 @@ pub(crate) struct Args {
     /// standing example, then the examples with extreme speeds and turn rates.
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     max_examples: Option<NonZeroUsize>,
+    /// Use only the clips of a style, stated in the manifest or found in the clips' paths; can be given several times.
+    #[arg(long, value_name = "NAME")]
+    style: Vec<String>,
     /// Leave out a mesh of a character, by its name as `fbcrowd inspect` lists it; can be given several times.
     #[arg(long, value_name = "MESH")]
     hide: Vec<String>,
@@ -92,6 +95,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let overrides = Overrides {
         velocity_hull: args.velocity_hull.map(Construction::from),
         max_examples: args.max_examples,
+        styles: args.style.clone(),
         outside: args.outside.into(),
     };
     let (stopwatch, progress) = (Stopwatch::default(), ProgressDisplay::default());
@@ -132,8 +136,10 @@ fn compile_figure(args: &Args) -> Result<Answer, Failure> {
     let [input] = args.clips.as_slice() else {
         return Err(Failure::bad("a character is made of one file; name one GLB, glTF or VRM file"));
     };
-    if args.max_examples.is_some() || args.velocity_hull.is_some() {
-        return Err(Failure::bad("--max-examples and --velocity-hull are options of databases; leave them out"));
+    if args.max_examples.is_some() || args.velocity_hull.is_some() || !args.style.is_empty() {
+        return Err(Failure::bad(
+            "--max-examples, --velocity-hull and --style are options of databases; leave them out",
+        ));
     }
     let progress = ProgressDisplay::default();
     check_file(&args.output)?;

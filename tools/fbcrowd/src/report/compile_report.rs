@@ -16,15 +16,18 @@ use motiondb_compiler::Rejection;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::action_report::{self, ActionReport, action_reports};
 use crate::report::json_diagnostic;
+use crate::report::motion::action_report::{self, ActionReport, action_reports};
+use crate::report::motion::style_report::{self, StyleReport, style_reports};
 
 /// The result of a compilation.
 #[derive(Default, JsonSchema, Serialize)]
 pub(crate) struct CompileReport {
     /// Path of the database; null where nothing was written.
     pub(crate) output: Option<String>,
-    /// Number of examples, mirrored ones included.
+    /// The styles of the database, the one of agents without a style first; empty where no clip has one.
+    pub(crate) styles: Vec<StyleReport>,
+    /// Number of examples of all styles, mirrored ones included.
     pub(crate) example_count: usize,
     /// Number of mirrored examples.
     pub(crate) mirror_count: usize,
@@ -51,7 +54,7 @@ pub(crate) struct CompileReport {
     /// Quality figures beyond their threshold. Mirrored examples are left out: they are as good as their originals.
     #[schemars(with = "Vec<FindingMirror>")]
     pub(crate) findings: Vec<Finding>,
-    /// Coverage gaps: regions of gaits without examples nearby.
+    /// Coverage gaps of the first style: regions of gaits without examples nearby.
     #[schemars(with = "Vec<CoverageGapMirror>")]
     pub(crate) coverage: Vec<CoverageGap>,
     /// Durations of the compiler's stages.
@@ -107,6 +110,8 @@ pub(crate) struct UsedClip {
     pub(crate) examples: Vec<ExampleReport>,
     /// Names of the actions made from the clip.
     pub(crate) actions: Vec<String>,
+    /// The style of the examples; empty where they have none.
+    pub(crate) style: String,
 }
 
 /// One example of a clip.
@@ -129,40 +134,52 @@ pub(crate) struct ExampleReport {
 impl CompileReport {
     /// The report of a database, without `next`; `output` is none where it was not written.
     pub(crate) fn new(output: Option<&Path>, db: &MotionDb, rejected: Vec<Rejection>, stages: Vec<StageTime>) -> Self {
-        let actions = action_reports(db);
         let mut report = Self {
             output: output.map(|path| path.display().to_string()),
-            example_count: db.examples.len(),
-            mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
-            simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
+            styles: style_reports(db),
             refused: rejected.into_iter().map(UnusedClip::from).collect(),
-            missing_transitions: action_report::missing(&actions),
-            actions,
-            quality: example_quality::quality(db),
-            findings: example_quality::lint(db),
-            coverage: coverage::coverage(db),
             stages,
             ..Self::default()
         };
-        for (index, source) in db.sources.iter().enumerate() {
+        db.styles().for_each(|style| report.add_style(style));
+        report.coverage = coverage::coverage(db);
+        report.missing_transitions = action_report::missing(&report.actions);
+        report
+    }
+
+    /// Adds the database of a style, without its further styles.
+    fn add_style(&mut self, db: &MotionDb) {
+        self.example_count += db.examples.len();
+        self.mirror_count += db.examples.iter().filter(|example| example.mirrored).count();
+        self.simplex_count += db.blend_space.simplices().filter(|corners| corners.len() > 1).count();
+        self.quality.extend(example_quality::quality(db));
+        self.findings.extend(example_quality::lint(db));
+        let own = |source: u32| style_report::lender(&db.sources[source as usize]).is_none();
+        self.actions.extend(
+            action_reports(db)
+                .into_iter()
+                .zip(&db.actions)
+                .filter(|(_, action)| own(action.source))
+                .map(|(report, _)| report),
+        );
+        for (index, source) in db.sources.iter().enumerate().filter(|(index, _)| own(*index as u32)) {
             let examples = db.examples.iter().filter(|example| example.source as usize == index);
             let actions = db.actions.iter().filter(|action| action.source as usize == index);
             let names = actions.map(|action| action.name.clone()).collect();
-            report.add(source, examples.map(ExampleReport::from).collect(), names);
+            self.add(source, examples.map(ExampleReport::from).collect(), names, &db.style);
         }
-        report
     }
 
     /// The report of clips of which none gives an example, without `next`.
     pub(crate) fn without_examples(rejected: Vec<Rejection>, sources: &[SourceRecord]) -> Self {
         let refused = rejected.into_iter().map(UnusedClip::from).collect();
         let mut report = Self { refused, ..Self::default() };
-        sources.iter().for_each(|source| report.add(source, Vec::new(), Vec::new()));
+        sources.iter().for_each(|source| report.add(source, Vec::new(), Vec::new(), ""));
         report
     }
 
     /// Adds a clip of human motion.
-    fn add(&mut self, source: &SourceRecord, examples: Vec<ExampleReport>, actions: Vec<String>) {
+    fn add(&mut self, source: &SourceRecord, examples: Vec<ExampleReport>, actions: Vec<String>, style: &str) {
         let (file, clip) = (source.file.clone(), source.clip.clone());
         let mut reasons = Vec::new();
         for diagnostic in &source.diagnostics {
@@ -179,7 +196,7 @@ impl CompileReport {
         if examples.is_empty() && actions.is_empty() {
             self.unused.push(UnusedClip { file, clip, reason: reasons.join("; ") });
         } else {
-            self.used.push(UsedClip { file, clip, examples, actions });
+            self.used.push(UsedClip { file, clip, examples, actions, style: style.to_owned() });
         }
     }
 

@@ -9,9 +9,10 @@ use motiondb::diagnostic::Severity;
 use motiondb::motion::SourceRecord;
 
 use crate::report::compile_report::{CompileReport, UnusedClip};
+use crate::report::example_table;
+use crate::report::motion::{action_report, style_report};
 use crate::report::plain_text::{one_line, title};
 use crate::report::sentence_groups::group;
-use crate::report::{action_report, example_table};
 
 /// Most lines of a section; the others are counted.
 const SHOWN_LINES: usize = 100;
@@ -23,6 +24,8 @@ const EXAMPLES: &str =
     "examples, worst first (! beyond its threshold; seam, jerk: in the cycle's usual step; leg: in its length)";
 /// Head of the table of actions.
 pub(crate) const ACTIONS: &str = "idles, the best first, and transitions (! has findings)";
+/// Head of the table of styles.
+pub(crate) const STYLES: &str = "styles, each blended by itself; agents without a style move in the first";
 /// Columns of a line.
 const WIDTH: usize = 110;
 
@@ -33,14 +36,23 @@ pub(crate) fn text(report: &CompileReport) -> String {
         section("rejected", grouped(report.refused.iter().map(reason))),
         section("no example", grouped(report.unused.iter().map(reason))),
         section("warnings", grouped(diagnostics(report, Severity::Warning))),
+        section(STYLES, style_report::lines(&report.styles)),
         section(EXAMPLES, example_table::lines(report)),
         section(ACTIONS, action_report::lines(&report.actions)),
         section("quality", grouped(findings(report).chain(action_report::findings(&report.actions)))),
         section("notes: nothing to do", grouped(diagnostics(report, Severity::Note))),
-        section("coverage gaps", report.coverage.iter().map(|gap| gap.sentence.clone()).collect()),
+        section(coverage_head(report), report.coverage.iter().map(|gap| gap.sentence.clone()).collect()),
         section("next", report.next.clone()),
     ];
     sections.concat() + "\n" + &last_line(report)
+}
+
+fn coverage_head(report: &CompileReport) -> &'static str {
+    if report.styles.len() > 1 {
+        "coverage gaps of the first style; `fbcrowd inspect --style NAME` lists those of another"
+    } else {
+        "coverage gaps"
+    }
 }
 
 /// Why clips give no example, and what to do next.

@@ -12,11 +12,12 @@ use motiondb_compiler::survey::{SourceGait, SurveyedSource};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::action_report::{ActionReport, action_reports};
 use crate::report::character_report::CharacterReport;
 use crate::report::compile_report::UnusedClip;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::json_diagnostic::JsonDiagnostic;
+use crate::report::motion::action_report::{ActionReport, action_reports};
+use crate::report::motion::style_report::StyleReport;
 
 /// Clips without a database.
 #[derive(JsonSchema, Serialize)]
@@ -32,7 +33,10 @@ pub(crate) struct ClipsReport {
 
 impl ClipsReport {
     pub(crate) fn new(surveyed: &[SurveyedSource], rejected: Vec<Rejection>) -> Self {
-        let clip = |found: &SurveyedSource| InspectedClip::new(&found.source, Some(found.gait.clone()));
+        let clip = |found: &SurveyedSource| InspectedClip {
+            style: Some(found.style.clone()),
+            ..InspectedClip::new(&found.source, Some(found.gait.clone()))
+        };
         Self {
             sources: surveyed.iter().map(clip).collect(),
             refused: rejected.into_iter().map(UnusedClip::from).collect(),
@@ -68,6 +72,9 @@ struct InspectedClip {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<SourceGaitMirror>")]
     gait: Option<SourceGait>,
+    /// Style of the clip; empty for none; only without a database.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    style: Option<String>,
 }
 
 /// A database that breaks an invariant.
@@ -89,6 +96,10 @@ pub(crate) struct BrokenInvariant {
 /// A whole database.
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct DatabaseReport {
+    /// The styles of the database, the one of agents without a style first; empty where no clip has one.
+    pub(crate) styles: Vec<StyleReport>,
+    /// The style that the other fields describe; empty for clips without one.
+    pub(crate) style: String,
     /// Examples of motion.
     pub(crate) examples: Vec<InspectedExample>,
     /// Idles, the best first, and transitions.
@@ -165,9 +176,12 @@ pub(crate) struct BlendSpaceReport {
 }
 
 impl DatabaseReport {
-    pub(crate) fn new(db: &MotionDb) -> Self {
+    /// The report of the database of a style; `styles` are those of the whole.
+    pub(crate) fn new(db: &MotionDb, styles: Vec<StyleReport>) -> Self {
         let name = |example: u32| db.examples[example as usize].name.clone();
         Self {
+            styles,
+            style: db.style.clone(),
             examples: db.examples.iter().map(|example| InspectedExample::new(example, &db.sources)).collect(),
             actions: action_reports(db),
             sources: db.sources.iter().map(|source| InspectedClip::new(source, None)).collect(),
@@ -213,6 +227,7 @@ impl InspectedClip {
             warnings: source.diagnostics.iter().map(sentence).collect(),
             diagnostics: source.diagnostics.iter().map(JsonDiagnostic::from).collect(),
             gait,
+            style: None,
         }
     }
 }

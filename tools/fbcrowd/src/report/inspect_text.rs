@@ -9,12 +9,14 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BlendSpaceReport, Correspondence, DatabaseReport, InspectedExample};
+use crate::report::motion::{action_report, style_report};
 use crate::report::plain_text::{one_line, title, unsigned_zero};
-use crate::report::{action_report, compile_text, leave_one_out_text};
+use crate::report::{compile_text, leave_one_out_text};
 
 /// A database as tables.
 pub(crate) fn database_text(db: &MotionDb, report: &DatabaseReport) -> String {
     let sections = [
+        styles_text(report),
         examples_text(&report.examples),
         compile_text::section(compile_text::ACTIONS, action_report::lines(&report.actions)),
         compile_text::section(
@@ -30,6 +32,17 @@ pub(crate) fn database_text(db: &MotionDb, report: &DatabaseReport) -> String {
         compile_text::source_diagnostics(db.sources.iter()),
     ];
     sections.concat()
+}
+
+/// The styles of the database, and which one the tables show; empty where it has none.
+fn styles_text(report: &DatabaseReport) -> String {
+    if report.styles.is_empty() {
+        return String::new();
+    }
+    let shown =
+        if report.style.is_empty() { "clips without style".to_owned() } else { format!("style `{}`", report.style) };
+    let styles = compile_text::section(compile_text::STYLES, style_report::lines(&report.styles));
+    format!("{}\n{shown}; --style NAME shows another\n\n", styles.trim_start())
 }
 
 fn examples_text(examples: &[InspectedExample]) -> String {
@@ -92,7 +105,7 @@ pub(crate) fn clips_text(surveyed: &[SurveyedSource]) -> String {
         surveyed.iter().map(|found| one_line(&title(&found.source.file, &found.source.clip))).collect();
     let width = width(names.iter().map(String::as_str), "clip");
     let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  up  m per unit     Hz  gait\n", "clip");
-    for (name, SurveyedSource { source, gait }) in names.iter().zip(surveyed) {
+    for (name, SurveyedSource { source, style, gait }) in names.iter().zip(surveyed) {
         text += &format!(
             "{name:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}  {}\n",
             unsigned_zero(source.speed_mps, 3),
@@ -101,7 +114,7 @@ pub(crate) fn clips_text(surveyed: &[SurveyedSource]) -> String {
             source.up_axis,
             source.metres_per_unit,
             source.frame_rate_hz,
-            gait_text(gait),
+            gait_text(gait) + &if style.is_empty() { String::new() } else { format!(", style {style}") },
         );
     }
     text + &compile_text::source_diagnostics(surveyed.iter().map(|found| &found.source))

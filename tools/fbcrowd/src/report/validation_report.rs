@@ -45,7 +45,11 @@ impl ValidationReport {
             [checksum].into_iter().chain(validate::validate(db)).map(InvariantCheck::from).collect();
         let valid = checks.iter().all(|check| check.holds);
         // Figures of an unsound database mean nothing.
-        let (findings, quality) = if valid { (lint(db), example_quality::quality(db)) } else { Default::default() };
+        let (findings, quality) = if valid {
+            (db.styles().flat_map(lint).collect(), db.styles().flat_map(example_quality::quality).collect())
+        } else {
+            Default::default()
+        };
         Self { valid, checks, findings, quality }
     }
 

@@ -25,7 +25,7 @@ impl Stride {
         let poses = (0..PHASE_COUNT).map(|phase| db.rows.pose(example, phase));
         let (skeleton, velocity_hull) = (db.skeleton.clone(), db.velocity_hull.clone());
         let pose = longest(&skeleton, poses);
-        Self { database: RecordedDatabase { checksum: 0, skeleton, velocity_hull }, pose }
+        Self { database: RecordedDatabase { checksum: 0, skeleton, velocity_hull, style: String::new() }, pose }
     }
 
     /// The longest stride of a recording, over frames that are spread evenly; agents that run are looked at as well.

@@ -92,6 +92,7 @@ impl Scene {
             one_way: &[],
             priorities: None,
             constraints: &MotionConstraints::new(&hull),
+            own_constraints: None,
             speed_factors: None,
             dt_s: self.dt_s,
             bodies: self.bodies,

@@ -105,7 +105,10 @@ impl From<HeaderV1> for Header {
     fn from(header: HeaderV1) -> Self {
         let HeaderV1 { database_checksum, skeleton, velocity_hull, scenario } = header;
         let (skeleton, velocity_hull) = (skeleton.into(), velocity_hull.into());
-        Self::of(RecordedDatabase { checksum: database_checksum, skeleton, velocity_hull }, scenario.into())
+        Self::of(
+            RecordedDatabase { checksum: database_checksum, skeleton, velocity_hull, style: String::new() },
+            scenario.into(),
+        )
     }
 }
 

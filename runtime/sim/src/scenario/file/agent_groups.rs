@@ -61,6 +61,7 @@ pub(crate) struct AgentGroup {
     groups: Option<BTreeMap<String, f32>>,
     group_spacing_m: Option<f32>,
     characters: Option<Vec<String>>,
+    pub(crate) style: Option<Spanned<String>>,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -123,6 +124,7 @@ impl Default for AgentGroup {
             groups: None,
             group_spacing_m: None,
             characters: None,
+            style: None,
         }
     }
 }
@@ -192,6 +194,7 @@ impl AgentGroup {
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(|number| number.is_some());
         let profiles = profiles_of.of_table(self.profile.as_ref(), pre_movement_s, states_speed, states_radius)?;
         let (profiles, characters) = profiles_of.with_characters(profiles, self.characters.as_ref())?;
+        let (profiles, style) = profiles_of.with_style(profiles, self.style.as_ref());
         let of_table = DrawnNumbers {
             preferred_speed_mps: preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             radius_m: radius_m.unwrap_or(RADIUS_M),
@@ -201,6 +204,7 @@ impl AgentGroup {
             stature: 1.0,
             characters,
             wears_radius: !states_radius && profiles_of.has_characters(),
+            style,
         };
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
@@ -248,6 +252,7 @@ impl AgentGroup {
             stature: numbers.stature,
             characters: numbers.characters,
             wears_radius: numbers.wears_radius,
+            style: numbers.style,
             group: None,
         }
     }

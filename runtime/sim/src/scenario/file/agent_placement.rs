@@ -272,6 +272,7 @@ pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioErr
         stature: 1.0,
         characters: 0,
         wears_radius: false,
+        style: 0,
     };
     let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
     Ok(journeys.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())

@@ -41,6 +41,7 @@ pub(crate) struct ProfileTable {
     stature: Option<DistributionValue>,
     priority: Option<f32>,
     characters: Option<Vec<String>>,
+    pub(crate) style: Option<Spanned<String>>,
 }
 
 /// `profile` of agents and sources.
@@ -56,6 +57,7 @@ pub(crate) struct Profiles<'a> {
     names: Names<'a>,
     resolved: Vec<Profile>,
     characters: &'a [CharacterSpec],
+    styles: &'a [String],
 }
 
 impl<'a> Profiles<'a> {
@@ -63,6 +65,7 @@ impl<'a> Profiles<'a> {
     pub(crate) fn new(
         tables: &'a BTreeMap<String, Spanned<ProfileTable>>,
         characters: &'a [CharacterSpec],
+        styles: &'a [String],
         source: &SourceText,
     ) -> Result<Self, ScenarioError> {
         let names = Names::new("profile", tables);
@@ -72,11 +75,11 @@ impl<'a> Profiles<'a> {
             return Err(source.invalid(table.span(), message, "give fewer").into());
         }
         let resolve = |(index, table): (usize, &&Spanned<ProfileTable>)| {
-            profile(index, &names, &tables, characters)
+            profile(index, &names, &tables, characters, styles)
                 .map_err(|(message, help)| source.invalid(table.span(), message, help).into())
         };
         let resolved = tables.iter().enumerate().map(resolve).collect::<Result<_, ScenarioError>>()?;
-        Ok(Self { names, resolved, characters })
+        Ok(Self { names, resolved, characters, styles })
     }
 
     /// Closes a zone to the agents of a profile, by the zone's bit.
@@ -138,6 +141,20 @@ impl<'a> Profiles<'a> {
         Ok((profiles, characters))
     }
 
+    /// The profiles of a table that states a style itself: it goes before those of the profiles. Beside them the style of
+    /// agents without profile.
+    pub(crate) fn with_style(
+        &self,
+        mut profiles: Vec<Profile>,
+        style: Option<&Spanned<String>>,
+    ) -> (Vec<Profile>, u32) {
+        let stated = style_index(self.styles, style);
+        if style.is_some() {
+            profiles.iter_mut().for_each(|profile| profile.style = stated);
+        }
+        (profiles, stated)
+    }
+
     /// Whether agents wear characters.
     pub(crate) fn has_characters(&self) -> bool {
         !self.characters.is_empty()
@@ -154,6 +171,7 @@ fn profile(
     names: &Names<'_>,
     tables: &[&Spanned<ProfileTable>],
     characters: &[CharacterSpec],
+    styles: &[String],
 ) -> Result<Profile, TableFault> {
     let mut merged = tables[index].get_ref().clone();
     let mut ancestors = vec![index];
@@ -172,6 +190,7 @@ fn profile(
             stature: merged.stature.or(parent.stature),
             priority: merged.priority.or(parent.priority),
             characters: merged.characters.or_else(|| parent.characters.clone()),
+            style: merged.style.or_else(|| parent.style.clone()),
         };
     }
     let speeds = [*SPEED_MPS.start(), *SPEED_MPS.end()];
@@ -192,7 +211,14 @@ fn profile(
         closed_zones: 0,
         priority: merged.priority.map_or(Ok(0.0), priority)?,
         characters: merged.characters.map_or(Ok(0), |names| set_of(&names, characters))?,
+        style: style_index(styles, merged.style.as_ref()),
     })
+}
+
+/// Index of a stated style, counted from 1; 0 where none is stated.
+fn style_index(styles: &[String], style: Option<&Spanned<String>>) -> u32 {
+    let position = style.and_then(|style| styles.iter().position(|name| name == style.get_ref()));
+    position.map_or(0, |position| position as u32 + 1)
 }
 
 fn pre_movement(value: DistributionValue) -> Result<Distribution, TableFault> {

@@ -72,7 +72,8 @@ fn resolve(
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
     let characters = characters(source, &file.characters)?;
-    let mut profiles = Profiles::new(&file.profiles, &characters, source)?;
+    let styles = file.styles();
+    let mut profiles = Profiles::new(&file.profiles, &characters, &styles, source)?;
     let zones = zones(source, &file.zones, &mut profiles, &states)?;
     let signals = Names::new("signal", &tables.signals);
     let mut ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
@@ -101,6 +102,7 @@ fn resolve(
         markings: markings.markings.clone(),
         labels: ground.labels.labels.clone(),
         characters: characters.clone(),
+        styles: styles.clone(),
         cameras: file.cameras().map(|camera| camera.get_ref().clone()).collect(),
         shot: file.shot.as_ref().map(|shot| shot.get_ref().clone()),
         variation: file.variation.as_ref().map_or(Some(Variation::default()), |value| value.get_ref().0),
@@ -124,6 +126,15 @@ pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     let grounds = file.walkable.iter().filter_map(|table| table.get_ref().file(&source));
     let schedules = file.sources.iter().filter_map(|table| table.get_ref().file(&source));
     Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).chain(schedules).collect())
+}
+
+/// Checks that every style that a scenario file names is one of the motion's.
+///
+/// # Errors
+/// Where the file cannot be read, is no scenario file, or names another style: shown at its line, with the list.
+pub fn check_styles(path: &Path, existing: &[String]) -> Result<(), ScenarioError> {
+    let source = read_text(path)?;
+    ScenarioFile::parse(&source)?.check_styles(&source, existing)
 }
 
 /// Whether a scenario file names a motion: clips or a database, which need not exist.

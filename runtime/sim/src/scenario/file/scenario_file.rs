@@ -34,7 +34,7 @@
 //! [camera]                            # or several [[cameras]]: see `camera_spec.rs`
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use motiondb::files::SourceText;
@@ -152,6 +152,35 @@ impl ScenarioFile {
     /// The tables of agents, and their bytes in the text; none where all agents come from sources.
     pub(crate) fn agents(&self) -> Option<&Spanned<AgentGroups>> {
         self.agents.as_ref()
+    }
+
+    /// The styles that tables of agents, sources and profiles state, each as often as it is stated. An empty name stands
+    /// for no style.
+    fn stated_styles(&self) -> impl Iterator<Item = &Spanned<String>> {
+        let groups = self.agents().into_iter().flat_map(|groups| &groups.get_ref().0);
+        let of_agents = groups.filter_map(|(_, group)| group.style.as_ref());
+        let of_sources = self.sources.iter().filter_map(|table| table.get_ref().style.as_ref());
+        let of_profiles = self.profiles.values().filter_map(|table| table.get_ref().style.as_ref());
+        of_agents.chain(of_sources).chain(of_profiles).filter(|style| !style.get_ref().is_empty())
+    }
+
+    /// The names of these styles, sorted.
+    pub(crate) fn styles(&self) -> Vec<String> {
+        let names: BTreeSet<&str> = self.stated_styles().map(|style| style.get_ref().as_str()).collect();
+        names.into_iter().map(str::to_owned).collect()
+    }
+
+    /// Checks that each of these styles is among those of the motion.
+    pub(crate) fn check_styles(&self, source: &SourceText, existing: &[String]) -> Result<(), ScenarioError> {
+        let missing = self.stated_styles().find(|style| !existing.contains(style.get_ref()));
+        let Some(missing) = missing else { return Ok(()) };
+        let names: Vec<&str> = existing.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
+        let (what, help) = match names[..] {
+            [] => ("has none".to_owned(), "remove `style`, or compile clips of this style (docs/manifest.md)"),
+            _ => (format!("has {}", names.join(", ")), "name one of these"),
+        };
+        let message = format!("there is no style `{}`; the motion {what}", missing.get_ref());
+        Err(source.invalid(missing.span(), message, help).into())
     }
 
     /// The tables of cameras, `[camera]` first.

@@ -104,6 +104,7 @@ impl Scene {
             one_way: &[],
             priorities: None,
             constraints: &constraints,
+            own_constraints: None,
             speed_factors: None,
             dt_s: 0.1,
             bodies: true,

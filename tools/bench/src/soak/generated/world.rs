@@ -112,6 +112,7 @@ impl GeneratedWorld {
             one_way: &[],
             priorities: None,
             constraints,
+            own_constraints: None,
             speed_factors: None,
             dt_s: self.dt_s,
             bodies: true,

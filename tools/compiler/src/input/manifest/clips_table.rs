@@ -40,6 +40,7 @@ pub(crate) struct ClipsTable {
     mirror: Option<bool>,
     posture: Option<AcceptedPosture>,
     transition: Option<Spanned<StatedTransition>>,
+    style: Option<Spanned<String>>,
 }
 
 /// The transition that a clip shows.
@@ -95,6 +96,7 @@ impl ClipsTable {
         check_range(source, "frame_rate_hz", self.frame_rate_hz.as_ref(), FRAME_RATE_HZ)?;
         self.check_frames(source)?;
         self.check_name(source)?;
+        self.check_style(source)?;
         self.check_joints(source)?;
         self.check_limbs(source)
     }
@@ -119,6 +121,17 @@ impl ClipsTable {
             return Err(source.invalid(name.span(), message, "write letters, digits, spaces and punctuation"));
         }
         Ok(())
+    }
+
+    /// Checks that a style has a name that can be written in one line, or none.
+    fn check_style(&self, source: &SourceText) -> Result<(), Invalid> {
+        let Some(style) = self.style.as_ref().filter(|style| !style.get_ref().is_empty()) else { return Ok(()) };
+        let name = style.get_ref();
+        if motiondb::validate::is_style_name(name) {
+            return Ok(());
+        }
+        let message = "a style is a word of letters, digits, spaces, `-` and `_`";
+        Err(source.invalid(style.span(), message, "write a word, such as \"elderly\", or \"\" for no style"))
     }
 
     /// Checks that every key of `joints` is a role, and that no joint has two roles.
@@ -200,6 +213,7 @@ impl ClipsTable {
             settings.takes_any_posture = posture == AcceptedPosture::Any;
         }
         settings.mirror = self.mirror.or(settings.mirror);
+        settings.style = value(&self.style).or(settings.style.take());
     }
 }
 

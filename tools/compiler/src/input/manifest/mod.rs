@@ -24,6 +24,7 @@
 //! frames = [120, 480]                 # first and last, counted from 1
 //! mirror = false
 //! transition = "start"                # the clip shows a start, stop, turn, step or pivot, and gives no example
+//! style = "elderly"                   # the clips of a style are blended among themselves; "" for none
 //!
 //! [[clips]]
 //! path = "broken"                     # a file or folder that is not used
@@ -39,6 +40,7 @@
 mod clip_selection;
 mod clips_table;
 
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -53,6 +55,7 @@ use crate::input::clip_settings::ClipSettings;
 use crate::input::manifest::clips_table::ClipsTable;
 use crate::input::name_suggestions::nearest_first;
 use crate::input::options::Options;
+use crate::input::style_names;
 use crate::retarget::human_clip::HumanClip;
 
 /// Number of existing names that a message suggests for a name that does not exist.
@@ -140,6 +143,32 @@ impl Manifest {
         let new = files.iter().map(|file| clip_selection::normal_path(file)).filter(|file| !present.contains(file));
         self.clips.extend(new.map(ClipSettings::from));
         clip_selection::sort(&mut self.clips);
+    }
+
+    /// The style of each clip: the stated one, else the one that its path names; empty for none.
+    pub fn styles(&self) -> Vec<String> {
+        let paths: Vec<&Path> = self.clips.iter().map(|clip| clip.path.as_path()).collect();
+        let found = style_names::found_styles(&paths);
+        self.clips.iter().zip(found).map(|(clip, found)| clip.style.clone().unwrap_or(found)).collect()
+    }
+
+    /// Leaves only the clips of some styles; the empty name stands for clips without a style.
+    ///
+    /// # Errors
+    /// [`CompileError::NoStyle`] if there is no clip of a style.
+    pub fn keep_styles(&mut self, kept: &[String]) -> Result<(), CompileError> {
+        let styles = self.styles();
+        if let Some(missing) = kept.iter().find(|style| !styles.contains(style)) {
+            let existing: BTreeSet<&str> =
+                styles.iter().map(String::as_str).filter(|style| !style.is_empty()).collect();
+            let styles = nearest_first(missing, existing).into_iter().map(str::to_owned).collect();
+            return Err(CompileError::NoStyle { style: missing.clone(), styles });
+        }
+        for (clip, style) in self.clips.iter_mut().zip(styles) {
+            clip.style = Some(style);
+        }
+        self.clips.retain(|clip| clip.style.as_ref().is_some_and(|style| kept.contains(style)));
+        Ok(())
     }
 
     /// Marks the clips that `semi_procedural` and `target_skeleton` name.

@@ -13,6 +13,7 @@ use fbcrowd_render::plots::database::{database_plot_paths, write_database_plots}
 use motiondb::files::database_file::{self, FileError};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
+use motiondb_compiler::input::nearest_first;
 use motiondb_compiler::survey::survey;
 
 use self::character::CharacterOptions;
@@ -21,6 +22,7 @@ use crate::cmd::rejected;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BrokenInvariant, BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::inspect_text;
+use crate::report::motion::style_report::style_reports;
 use crate::terminal::failure::{ALL_REJECTED, Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
@@ -47,6 +49,9 @@ pub(crate) struct Args {
     /// and how similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Show a style of a database; by default the one in which agents without a style move.
+    #[arg(long, value_name = "NAME")]
+    style: Option<String>,
     /// Draw a character alone: its bind pose with the joint of each role, and a stride, of the recording or of a bundled
     /// walk.
     #[arg(short, long, value_name = "PICTURE.png")]
@@ -130,33 +135,54 @@ fn is_character(path: &Path) -> bool {
 }
 
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
-    let db = match database_file::load(path) {
+    let whole = match database_file::load(path) {
         Ok((db, _)) => db,
         // The file could be read, and the answer is no.
         Err(broken @ FileError::Invariant { .. }) => return say_broken(args, &broken),
         Err(unreadable) => return Err(unreadable.into()),
     };
+    let db = match &args.style {
+        Some(style) => whole.of_style(style).ok_or_else(|| Failure::bad(no_style(&whole, style)))?,
+        None => &whole,
+    };
     let table = match args.correspondence.as_deref() {
-        Some([from, to]) => Some(CorrespondenceTable::new(&db, [from, to]).map_err(Failure::bad)?),
+        Some([from, to]) => Some(CorrespondenceTable::new(db, [from, to]).map_err(Failure::bad)?),
         _ => None,
     };
     if let Some(folder) = &args.plots {
-        check_plots(&db, folder, path)?;
-        let mut pictures = write_database_plots(&db, folder)?;
+        let further: Vec<(&MotionDb, PathBuf)> = match &args.style {
+            Some(_) => Vec::new(),
+            None => whole.further_styles.iter().map(|style| (style, folder.join(&style.style))).collect(),
+        };
+        check_plots(db, folder, path)?;
+        further.iter().try_for_each(|(style, folder)| check_plots(style, folder, path))?;
+        let mut pictures = write_database_plots(db, folder)?;
+        for (style, folder) in &further {
+            pictures.extend(write_database_plots(style, folder)?);
+        }
         if let Some(table) = &table {
-            pictures.push(table.draw(&db, folder)?);
+            pictures.push(table.draw(db, folder)?);
         }
         pictures.iter().for_each(|picture| output::say(&format!("drew {}", picture.display())));
     }
-    let mut report = DatabaseReport::new(&db);
+    let mut report = DatabaseReport::new(db, style_reports(&whole));
     report.correspondence_between = table;
-    report.leave_one_out = args.leave_one_out.then(|| leave_one_out(&db));
+    report.leave_one_out = args.leave_one_out.then(|| leave_one_out(db));
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&inspect_text::database_text(&db, &report))?;
+        output::print(&inspect_text::database_text(db, &report))?;
     }
     Ok(Answer::Yes)
+}
+
+/// That a database lacks a style, and which ones it has.
+fn no_style(db: &MotionDb, style: &str) -> String {
+    let styles: Vec<&str> = db.styles().map(|db| db.style.as_str()).filter(|style| !style.is_empty()).collect();
+    if styles.is_empty() {
+        return format!("there is no style `{style}`: the database has none; leave --style out");
+    }
+    format!("there is no style `{style}`; the database has {}", nearest_first(style, styles).join(", "))
 }
 
 /// Checks that every plot can be written, and none replaces the database.
@@ -178,6 +204,7 @@ fn say_broken(args: &Args, broken: &FileError) -> Result<Answer, Failure> {
 fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
     let of_databases = [
         (args.plots.is_some(), "--plots draws databases"),
+        (args.style.is_some(), "--style shows a style of a database"),
         (args.leave_one_out, "--leave-one-out needs a database"),
         (args.correspondence.is_some(), "--correspondence compares examples of a database"),
     ];

@@ -56,6 +56,7 @@ pub(crate) struct SourceTable {
     groups: Option<BTreeMap<String, f32>>,
     group_spacing_m: Option<f32>,
     characters: Option<Vec<String>>,
+    pub(crate) style: Option<Spanned<String>>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
@@ -68,7 +69,7 @@ pub(crate) fn sources(
     let resolve = |table: &Spanned<SourceTable>| {
         let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
         let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
-        let SourceTable { groups, group_spacing_m, characters, .. } = table.get_ref();
+        let SourceTable { groups, group_spacing_m, characters, style, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
         let resolved = table.get_ref().source(duration_s).map_err(at_table)?;
         let schedule = table.get_ref().schedule(source);
@@ -77,8 +78,9 @@ pub(crate) fn sources(
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
         let (state, schedule) = (states.index(state.as_ref(), source)?, schedule.transpose()?);
         let (profiles, characters) = input.profiles.with_characters(profiles, characters.as_ref()).map_err(at_table)?;
+        let (profiles, style) = input.profiles.with_style(profiles, style.as_ref());
         let wears_radius = !states_radius && input.profiles.has_characters();
-        Ok(SourceSpec { characters, wears_radius, state, schedule, profiles, groups, ..resolved })
+        Ok(SourceSpec { characters, wears_radius, style, state, schedule, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }

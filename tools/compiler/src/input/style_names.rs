@@ -1,0 +1,275 @@
+//! Paths of clips → the styles that they name, where a set is arranged by styles. A manifest overrides them.
+//!
+//! 1. File names of published sets: `Angry_FW.bvh` beside other movements of the same style (100STYLE),
+//!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
+//! 2. Folders side by side that each hold a walk, by its name, and are named by words without digits. Two of them hold
+//!    a walk of the same name, apart from the folder's, or the name of one is a known manner of moving. So folders of
+//!    subjects, takes and movements are no styles.
+//!
+//! Names of styles are in lower case.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use motiondb::validate::is_style_name;
+
+/// Movements of 100STYLE (Mason et al. 2022): forward, backward and sideways walks and runs, idle, transitions.
+const MOVEMENT_CODES: [&str; 10] = ["bw", "br", "fw", "fr", "id", "sw", "sr", "tr1", "tr2", "tr3"];
+/// The styles of Xia et al. 2015.
+const XIA_STYLES: [&str; 8] = ["angry", "childlike", "depressed", "neutral", "old", "proud", "sexy", "strutting"];
+/// Words for manners of moving that folders are named by: those of the published sets, and near ones.
+const MANNERS: [&str; 40] = [
+    "active",
+    "aged",
+    "angry",
+    "casual",
+    "child",
+    "childish",
+    "childlike",
+    "depressed",
+    "drunk",
+    "elderly",
+    "excited",
+    "exhausted",
+    "female",
+    "feminine",
+    "happy",
+    "heavy",
+    "hurried",
+    "injured",
+    "joyful",
+    "limping",
+    "male",
+    "masculine",
+    "neutral",
+    "normal",
+    "old",
+    "proud",
+    "relaxed",
+    "robot",
+    "sad",
+    "sexy",
+    "shy",
+    "sneaky",
+    "strutting",
+    "tired",
+    "weak",
+    "women",
+    "men",
+    "young",
+    "youthful",
+    "zombie",
+];
+/// Words for movements, directions, speeds and parts of a collection: folders of these names hold no style.
+const NOT_STYLES: [&str; 50] = [
+    "animation",
+    "animations",
+    "anims",
+    "back",
+    "backward",
+    "bvh",
+    "circle",
+    "clips",
+    "copy",
+    "data",
+    "dataset",
+    "fast",
+    "fbx",
+    "forward",
+    "gait",
+    "gaits",
+    "glb",
+    "gltf",
+    "idle",
+    "idles",
+    "jog",
+    "jogs",
+    "jump",
+    "left",
+    "locomotion",
+    "misc",
+    "mocap",
+    "motion",
+    "motions",
+    "other",
+    "raw",
+    "right",
+    "run",
+    "runs",
+    "side",
+    "slow",
+    "sprint",
+    "stand",
+    "start",
+    "step",
+    "stop",
+    "strafe",
+    "test",
+    "train",
+    "turn",
+    "turns",
+    "val",
+    "walk",
+    "walking",
+    "walks",
+];
+/// Styles that serve agents without a style where no clip is without one, the first that the set has.
+pub(crate) const NEUTRAL_STYLES: [&str; 2] = ["neutral", "normal"];
+
+/// The style of each clip by its path; empty where it names none.
+pub(crate) fn found_styles(paths: &[&Path]) -> Vec<String> {
+    let of_folders = StyleFolders::of(paths);
+    let of_codes = styles_of_movement_codes(paths);
+    let of_path = |path: &&Path| {
+        let found = style_of_name(path, &of_codes).or_else(|| of_folders.style(path));
+        found.filter(|name| is_style_name(name)).unwrap_or_default()
+    };
+    paths.iter().map(of_path).collect()
+}
+
+/// The style in a file name of a published set.
+fn style_of_name(path: &Path, of_codes: &BTreeSet<String>) -> Option<String> {
+    let stem = stem(path);
+    let is_number = |word: &str, digits: usize| word.len() == digits && word.bytes().all(|b| b.is_ascii_digit());
+    match stem.split('_').collect::<Vec<&str>>()[..] {
+        [set, _, style, number] if set.starts_with("dataset-") && is_number(number, 3) && is_word(style) => {
+            Some(style.to_owned())
+        }
+        [style, movement, take] if XIA_STYLES.contains(&style) && is_number(movement, 2) && is_number(take, 3) => {
+            Some(style.to_owned())
+        }
+        _ => {
+            let (style, code) = stem.rsplit_once('_')?;
+            (of_codes.contains(style) && MOVEMENT_CODES.contains(&code)).then(|| style.to_owned())
+        }
+    }
+}
+
+/// Styles that have a walk and another movement by the codes of 100STYLE.
+fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
+    let mut codes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for path in paths {
+        let stem = stem(path);
+        let Some((style, code)) = stem.rsplit_once('_') else { continue };
+        if MOVEMENT_CODES.contains(&code) && is_style_word(style) {
+            codes.entry(style.to_owned()).or_default().insert(code.to_owned());
+        }
+    }
+    codes.retain(|_, codes| codes.contains("fw") && codes.len() > 1);
+    codes.into_keys().collect()
+}
+
+/// Folders that hold the clips of one style.
+struct StyleFolders<'a> {
+    folders: BTreeSet<&'a Path>,
+}
+
+impl<'a> StyleFolders<'a> {
+    fn of(paths: &[&'a Path]) -> Self {
+        // Folders side by side, and the walks in each, without the folder's name.
+        let mut siblings: BTreeMap<&Path, BTreeMap<&Path, BTreeSet<String>>> = BTreeMap::new();
+        for path in paths {
+            for folder in path.ancestors().skip(1) {
+                let (Some(parent), Some(name)) = (folder.parent(), named(folder)) else { continue };
+                let walk = without(&stem(path), &name);
+                if is_style_word(&name) && is_walk(&walk) {
+                    siblings.entry(parent).or_default().entry(folder).or_default().insert(walk);
+                }
+            }
+        }
+        let are_styles = |folders: &BTreeMap<&Path, BTreeSet<String>>| {
+            let mut walks = BTreeSet::new();
+            let is_shared = folders.values().flatten().any(|walk| !walks.insert(walk));
+            let is_manner = |folder: &&Path| named(folder).is_some_and(|name| MANNERS.contains(&name.as_str()));
+            folders.len() > 1 && (is_shared || folders.keys().any(is_manner))
+        };
+        let found = siblings.into_values().filter(are_styles);
+        Self { folders: found.flat_map(BTreeMap::into_keys).collect() }
+    }
+
+    /// The name of the innermost such folder around a clip.
+    fn style(&self, path: &Path) -> Option<String> {
+        path.ancestors().skip(1).find(|folder| self.folders.contains(folder)).and_then(named)
+    }
+}
+
+/// The name of a folder, in lower case.
+fn named(folder: &Path) -> Option<String> {
+    Some(folder.file_name()?.to_str()?.to_lowercase())
+}
+
+/// The name of a file without its extension, in lower case.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase())
+}
+
+/// The name of a clip without that of its folder and what joins both.
+fn without(stem: &str, folder: &str) -> String {
+    stem.replacen(folder, "", 1).trim_matches(is_joint).to_owned()
+}
+
+fn is_joint(letter: char) -> bool {
+    matches!(letter, '_' | '-' | ' ' | '.')
+}
+
+/// Whether a clip is a walk by its name without the folder's.
+fn is_walk(name: &str) -> bool {
+    name.contains("walk") || name == "fw"
+}
+
+/// Letters, and what joins words.
+fn is_word(name: &str) -> bool {
+    name.chars().any(char::is_alphabetic) && name.chars().all(|letter| letter.is_alphabetic() || is_joint(letter))
+}
+
+/// Whether a style may have this name: no number, no movement.
+fn is_style_word(name: &str) -> bool {
+    let is_other = |word: &str| NOT_STYLES.contains(&word);
+    is_word(name) && name.chars().count() > 2 && !name.split(is_joint).any(is_other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(paths: &[(&str, &str)]) {
+        let found = found_styles(&paths.iter().map(|(path, _)| Path::new(path)).collect::<Vec<_>>());
+        let wanted: Vec<&str> = paths.iter().map(|(_, style)| *style).collect();
+        assert_eq!(found, wanted, "{paths:?}");
+    }
+
+    #[test]
+    fn folders_that_each_hold_a_walk_are_styles() {
+        check(&[
+            ("set/Elderly/walk.bvh", "elderly"),
+            ("set/Elderly/turns/turn_left.bvh", "elderly"),
+            ("set/brisk/walk.bvh", "brisk"),
+            ("set/idles/idle.bvh", ""),
+            ("set/walk_110.bvh", ""),
+        ]);
+        check(&[("neutral/walk_slow.bvh", "neutral"), ("cheerful/cheerful_walk.glb", "cheerful"), ("run.bvh", "")]);
+    }
+
+    #[test]
+    fn folders_of_movements_subjects_and_sources_are_no_styles() {
+        check(&[("walks/walk.bvh", ""), ("runs/walk_run.bvh", "")]);
+        check(&[("left/walk.bvh", ""), ("right/walk.bvh", "")]);
+        check(&[("subject_07/walk.bvh", ""), ("subject_12/walk.bvh", "")]);
+        check(&[("07/walk.bvh", ""), ("12/walk.bvh", "")]);
+        check(&[("vendor/walk1.bvh", ""), ("studio/ezgi_walk.bvh", "")]);
+        check(&[("elderly/walk.bvh", ""), ("elderly/walk_fast.bvh", "")]);
+        check(&[("elderly/walk.bvh", ""), ("angry/run.bvh", "")]);
+    }
+
+    #[test]
+    fn names_of_published_sets_state_styles() {
+        check(&[("100STYLE/Angry/Angry_FW.bvh", "angry"), ("100STYLE/Angry/Angry_ID.bvh", "angry")]);
+        check(&[("BeatChest_FW.bvh", "beatchest"), ("BeatChest_TR1.bvh", "beatchest"), ("Walk_FW.bvh", "")]);
+        check(&[
+            ("dataset-1_walk_elderly_001.bvh", "elderly"),
+            ("dataset-2_walk-turn-left_not-confident_003.bvh", "not-confident"),
+        ]);
+        check(&[("neutral_01_000.bvh", "neutral"), ("capture_01_000.bvh", ""), ("walk_fast_001.bvh", "")]);
+    }
+}
