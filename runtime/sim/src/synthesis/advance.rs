@@ -18,7 +18,7 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at } = self;
+        let Self { root, actual_mps, command, motion, contact, look_at, lean } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
@@ -44,6 +44,7 @@ impl Body {
             motion.jump(context, step, MotionState::reverse);
         }
         look_at.follow(&plan, root.facing_rad, step);
+        lean.follow(&motion.drawn_parameters(&context.db), step);
     }
 }
 

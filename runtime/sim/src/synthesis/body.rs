@@ -8,7 +8,7 @@ use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::MotionState;
-use crate::synthesis::pose::{ContactState, LookAt};
+use crate::synthesis::pose::{ContactState, Lean, LookAt};
 
 /// A simulated body.
 ///
@@ -52,6 +52,8 @@ pub struct Body {
     pub(crate) contact: ContactState,
     /// Where head and chest turn.
     pub(crate) look_at: LookAt,
+    /// Tilt of the trunk with the acceleration of the drawn motion.
+    pub(crate) lean: Lean,
 }
 
 /// The output of a body for a step.

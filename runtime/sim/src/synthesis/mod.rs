@@ -16,7 +16,7 @@
 //! `synthesize` makes the pose:
 //!
 //! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
-//! 9. `traits`, `look_at`: the upper body moves as this agent does; head and chest turn;
+//! 9. `traits`, `look_at`, `lean`: the upper body moves as this agent does; head and chest turn; the trunk leans;
 //! 10. `foot_lock`, `pelvis`: planted feet are locked, and the pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
 //!
@@ -39,7 +39,7 @@
 //! `synthesize` and `walk_alone`.
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
-//! `LookAt`.
+//! `LookAt`, `Lean`.
 //!
 //! # Frames and units
 //!
