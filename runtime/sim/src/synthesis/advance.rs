@@ -9,7 +9,7 @@ use motiondb::motion::Parameters;
 
 use crate::maths::arc::moved_root;
 use crate::planning::plan::Plan;
-use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase};
+use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase, stance_foot};
 use crate::synthesis::hybrid::MotionState;
 use crate::synthesis::pose::ContactState;
 use crate::synthesis::{Body, Mode, SynthesisContext, TimeStep};
@@ -18,7 +18,7 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at, lean } = self;
+        let Self { root, actual_mps, command, motion, contact, look_at, lean, weight_shift } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
@@ -26,6 +26,7 @@ impl Body {
         if motion.mode == Mode::Blending && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             motion.jump(context, step, |motion| motion.phase = phase);
+            weight_shift.begin(stance_foot(phase));
         }
         let target = motion.target(command, &reachable, context);
         motion.approach(target, &reachable, command, context, step.dt_s);

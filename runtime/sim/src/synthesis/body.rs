@@ -8,7 +8,7 @@ use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::MotionState;
-use crate::synthesis::pose::{ContactState, Lean, LookAt};
+use crate::synthesis::pose::{ContactState, Lean, LookAt, WeightShift};
 
 /// A simulated body.
 ///
@@ -54,6 +54,8 @@ pub struct Body {
     pub(crate) look_at: LookAt,
     /// Tilt of the trunk with the acceleration of the drawn motion.
     pub(crate) lean: Lean,
+    /// Shift of the weight before a first step.
+    pub(crate) weight_shift: WeightShift,
 }
 
 /// The output of a body for a step.

@@ -14,15 +14,15 @@
 //!
 //! Root frame (x forward, y left, z up); m/s, m/s², radians.
 
-use glam::{Quat, Vec2, Vec3};
+use glam::{Quat, Vec2};
 use motiondb::body::{Joint, Pose};
 use motiondb::motion::Parameters;
 
 use crate::maths::angle::rotation;
 use crate::synthesis::TimeStep;
 
-/// γ: tilt for each unit of acceleration, rad per m/s² (2°). The filter evens it out: a start tilts by 1° per m/s².
-const TILT_RAD_PER_MPS2: f32 = 0.035;
+/// γ: tilt for each unit of acceleration, rad per m/s² (1.8°): in a start, which the filter evens out, 0.5 to 1.7°.
+const TILT_RAD_PER_MPS2: f32 = 0.031;
 /// Greatest acceleration that counts, m/s²: that of an emergency stop.
 const ACCELERATION_MAX_MPS2: f32 = 3.0;
 /// Tilt below which the pose is left unchanged, rad.

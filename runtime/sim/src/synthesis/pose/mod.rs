@@ -3,7 +3,8 @@
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
 //! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`,
-//! all held by `contact_state`; `look_at` turns head and chest, and `lean` tilts the trunk.
+//! all held by `contact_state`; `look_at` turns head and chest, and `lean` tilts the trunk;
+//! `weight_shift` moves the pelvis before a first step.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
@@ -15,6 +16,7 @@ pub(crate) mod leg_clearance;
 pub(crate) mod look_at;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
+pub(crate) mod weight_shift;
 
 pub(crate) use contact_state::{ContactState, FootMotion};
 pub(crate) use foot_lock::FootLock;
@@ -23,3 +25,4 @@ pub use leg::FootPose;
 pub(crate) use leg::PosedLeg;
 pub(crate) use look_at::LookAt;
 pub use posture::Posture;
+pub(crate) use weight_shift::WeightShift;
