@@ -18,7 +18,7 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at, lean, weight_shift } = self;
+        let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, weight_shift } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
@@ -36,6 +36,7 @@ impl Body {
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
         motion.time_steps(target, context, step);
         motion.advance_phase(step.dt_s * rate_factor * motion.timing.pace, context);
+        let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
@@ -45,7 +46,10 @@ impl Body {
             motion.jump(context, step, MotionState::reverse);
         }
         look_at.follow(&plan, root.facing_rad, step);
-        lean.follow(&motion.drawn_parameters(&context.db), step);
+        let drawn = motion.drawn_parameters(&context.db);
+        lean.follow(&drawn, step);
+        let walking = Vec2::new(drawn.speed_mps, drawn.strafe_mps).length() / context.base_mps;
+        secondary.follow(motion.phase, advanced, walking, step);
     }
 }
 
