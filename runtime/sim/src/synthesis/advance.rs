@@ -18,7 +18,7 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, weight_shift } = self;
+        let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, squeeze, weight_shift } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
@@ -49,6 +49,7 @@ impl Body {
         let drawn = motion.drawn_parameters(&context.db);
         lean.follow(&drawn, step);
         let walking = Vec2::new(drawn.speed_mps, drawn.strafe_mps).length() / context.base_mps;
+        squeeze.follow(plan.gap_m, context.shoulder_breadth_m, step);
         secondary.follow(motion.phase, advanced, walking, step);
     }
 }

@@ -10,7 +10,7 @@ use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
-use crate::synthesis::pose::{ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, WeightShift};
+use crate::synthesis::pose::{ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift};
 use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
@@ -39,6 +39,7 @@ impl Body {
             look_at: LookAt::default(),
             lean: Lean::default(),
             secondary: SecondaryMotion::default(),
+            squeeze: Squeeze::default(),
             weight_shift: WeightShift::default(),
         };
         let output = body.synthesize(context, &TimeStep::new(SETTLING_S));
@@ -47,7 +48,7 @@ impl Body {
 
     /// Poses the body at its present phase and root.
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
-        let Self { root, motion, contact, look_at, lean, secondary, weight_shift, .. } = self;
+        let Self { root, motion, contact, look_at, lean, secondary, squeeze, weight_shift, .. } = self;
         // All is done in the frame of the root under the drawn body.
         let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root, &context.db).frame());
         let active = motion.active(context);
@@ -55,6 +56,7 @@ impl Body {
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
         motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
+        squeeze.turn(&mut posture.pose, &context.mean_rotations, skeleton);
         lean.tilt(&mut posture.pose);
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);

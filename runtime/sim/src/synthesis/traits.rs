@@ -16,7 +16,7 @@ use motiondb::body::{JOINT_COUNT, Joint, Pose};
 use crate::maths::angle::rotation;
 
 /// Joints of each arm that swing, `[left, right]`.
-const ARMS: [[Joint; 2]; 2] =
+pub(crate) const ARMS: [[Joint; 2]; 2] =
     [[Joint::LeftUpperArm, Joint::LeftForearm], [Joint::RightUpperArm, Joint::RightForearm]];
 
 /// What one body does differently.
@@ -67,7 +67,7 @@ impl Traits {
 }
 
 /// A rotation whose deviation from a mean is scaled.
-fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
+pub(crate) fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
     let mean = if mean.dot(rotation) < 0.0 { -mean } else { mean };
     (mean * (1.0 - factor) + rotation * factor).normalize()
 }

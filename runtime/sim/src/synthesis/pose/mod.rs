@@ -4,7 +4,8 @@
 //!
 //! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`,
 //! all held by `contact_state`; `look_at` turns head and chest, and `lean` tilts the trunk;
-//! `weight_shift` moves the pelvis before a first step, `secondary_motion` head, forearms and hands.
+//! `weight_shift` moves the pelvis before a first step, `secondary_motion` head, forearms and hands; `squeeze` turns the
+//! shoulders in narrow gaps.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
@@ -17,6 +18,7 @@ pub(crate) mod look_at;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
 pub(crate) mod secondary_motion;
+pub(crate) mod squeeze;
 pub(crate) mod weight_shift;
 
 pub(crate) use contact_state::{ContactState, FootMotion};
@@ -28,4 +30,5 @@ pub(crate) use look_at::LookAt;
 pub use posture::Posture;
 pub use secondary_motion::LackingMotion;
 pub(crate) use secondary_motion::SecondaryMotion;
+pub(crate) use squeeze::Squeeze;
 pub(crate) use weight_shift::WeightShift;
