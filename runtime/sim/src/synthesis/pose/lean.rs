@@ -1,7 +1,7 @@
 //! Lean: the trunk tilts in the direction in which the body accelerates. `FbCrowd` does not have it.
 //!
-//! People who start tilt the trunk forward, by 0.5 to 1.7° for each m/s² of the start (measured on captures); they tilt
-//! it backward to brake, and inward in curves (Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190). Here the
+//! People who start tilt the trunk forward, by 0.5 to 1.7° for each m/s² of the start (`docs/tuning.md`); they tilt it
+//! backward to brake, and inward in curves (Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190). Here the
 //! tilt follows the acceleration of the drawn motion, which has no stride ripple. With velocity v and turn rate ω_t in
 //! the body's frame,
 //!
