@@ -33,6 +33,8 @@ pub struct Variation {
     pub trunk_pitch_deg: f32,
     /// Deviation of the head's pitch, degrees.
     pub head_pitch_deg: f32,
+    /// Small motion of head, forearms and hands in walks, divided by that of captures, where the clips lack it.
+    pub secondary_motion: f32,
 }
 
 impl Default for Variation {
@@ -44,6 +46,7 @@ impl Default for Variation {
             arm_asymmetry: 0.1,
             trunk_pitch_deg: 2.0,
             head_pitch_deg: 4.0,
+            secondary_motion: 1.0,
         }
     }
 }
@@ -58,6 +61,7 @@ enum Purpose {
     ArmAsymmetry,
     TrunkPitch,
     HeadPitch,
+    SecondaryMotion,
 }
 
 impl Variation {
@@ -77,6 +81,8 @@ impl Variation {
             trunk_pitch_rad: deviating(self.trunk_pitch_deg, Purpose::TrunkPitch).to_radians(),
             head_pitch_rad: deviating(self.head_pitch_deg, Purpose::HeadPitch).to_radians(),
             first_foot_m: if prefers_left { FIRST_FOOT_M } else { -FIRST_FOOT_M },
+            secondary_motion: self.secondary_motion,
+            secondary_seed: random(seed, agent, Purpose::SecondaryMotion).next_u64(),
         }
     }
 

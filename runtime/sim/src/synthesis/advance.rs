@@ -9,7 +9,7 @@ use motiondb::motion::Parameters;
 
 use crate::maths::arc::moved_root;
 use crate::planning::plan::Plan;
-use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase};
+use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase, stance_foot};
 use crate::synthesis::hybrid::MotionState;
 use crate::synthesis::pose::ContactState;
 use crate::synthesis::{Body, Mode, SynthesisContext, TimeStep};
@@ -18,7 +18,7 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at } = self;
+        let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, squeeze, weight_shift } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
@@ -26,6 +26,7 @@ impl Body {
         if motion.mode == Mode::Blending && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             motion.jump(context, step, |motion| motion.phase = phase);
+            weight_shift.begin(stance_foot(phase));
         }
         let target = motion.target(command, &reachable, context);
         motion.approach(target, &reachable, command, context, step.dt_s);
@@ -35,6 +36,7 @@ impl Body {
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
         motion.time_steps(target, context, step);
         motion.advance_phase(step.dt_s * rate_factor * motion.timing.pace, context);
+        let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
@@ -44,6 +46,11 @@ impl Body {
             motion.jump(context, step, MotionState::reverse);
         }
         look_at.follow(&plan, root.facing_rad, step);
+        let drawn = motion.drawn_parameters(&context.db);
+        lean.follow(&drawn, step);
+        let walking = Vec2::new(drawn.speed_mps, drawn.strafe_mps).length() / context.base_mps;
+        squeeze.follow(plan.gap_m, context.shoulder_breadth_m, step);
+        secondary.follow(motion.phase, advanced, walking, step);
     }
 }
 

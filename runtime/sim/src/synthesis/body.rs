@@ -8,7 +8,7 @@ use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::MotionState;
-use crate::synthesis::pose::{ContactState, LookAt};
+use crate::synthesis::pose::{ContactState, Lean, LookAt, SecondaryMotion, Squeeze, WeightShift};
 
 /// A simulated body.
 ///
@@ -52,6 +52,14 @@ pub struct Body {
     pub(crate) contact: ContactState,
     /// Where head and chest turn.
     pub(crate) look_at: LookAt,
+    /// Tilt of the trunk with the acceleration of the drawn motion.
+    pub(crate) lean: Lean,
+    /// Turn of the shoulders in a narrow gap.
+    pub(crate) squeeze: Squeeze,
+    /// Small motion of head, forearms and hands.
+    pub(crate) secondary: SecondaryMotion,
+    /// Shift of the weight before a first step.
+    pub(crate) weight_shift: WeightShift,
 }
 
 /// The output of a body for a step.

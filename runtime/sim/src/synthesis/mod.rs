@@ -16,8 +16,9 @@
 //! `synthesize` makes the pose:
 //!
 //! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
-//! 9. `traits`, `look_at`: the upper body moves as this agent does; head and chest turn;
-//! 10. `foot_lock`, `pelvis`: planted feet are locked, and the pelvis drops where a leg would not reach;
+//! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
+//!    chest turn; shoulders turn in gaps; the trunk leans;
+//! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
 //!
 //! # Names
@@ -39,7 +40,7 @@
 //! `synthesize`, `walk_alone` and `stature` (bodies of other sizes).
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
-//! `LookAt`.
+//! `LookAt`, `Squeeze`, `Lean`, `SecondaryMotion`, `WeightShift`.
 //!
 //! # Frames and units
 //!

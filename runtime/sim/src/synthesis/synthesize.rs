@@ -10,7 +10,7 @@ use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
-use crate::synthesis::pose::{ContactState, FootMotion, LookAt, Posture};
+use crate::synthesis::pose::{ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift};
 use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
@@ -30,15 +30,25 @@ impl Body {
         let motion = MotionState::standing(context, phase, traits);
         let posture = motion.active(context).posture(context, phase);
         let contact = ContactState::standing(&posture, &root.frame(), &context.db.skeleton);
-        let (command, look_at) = (CommandState::standing(), LookAt::default());
-        let mut body = Self { root, actual_mps: Default::default(), command, motion, contact, look_at };
+        let mut body = Self {
+            root,
+            actual_mps: Default::default(),
+            command: CommandState::standing(),
+            motion,
+            contact,
+            look_at: LookAt::default(),
+            lean: Lean::default(),
+            secondary: SecondaryMotion::default(),
+            squeeze: Squeeze::default(),
+            weight_shift: WeightShift::default(),
+        };
         let output = body.synthesize(context, &TimeStep::new(SETTLING_S));
         (body, output)
     }
 
     /// Poses the body at its present phase and root.
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
-        let Self { root, motion, contact, look_at, .. } = self;
+        let Self { root, motion, contact, look_at, lean, secondary, squeeze, weight_shift, .. } = self;
         // All is done in the frame of the root under the drawn body.
         let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root, &context.db).frame());
         let active = motion.active(context);
@@ -46,6 +56,11 @@ impl Body {
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
         motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
+        squeeze.turn(&mut posture.pose, &context.mean_rotations, skeleton);
+        lean.tilt(&mut posture.pose);
+        let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
+        secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
+        posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step));
         let feet = FootMotion {
             planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
             contacts_ahead: contacts_ahead(&active, motion, context),

@@ -31,6 +31,16 @@ const TRAVEL_RATE_HZ: f32 = 10.0;
 /// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
 /// then turns at 200 °/s, as in a glance.
 const LOOK_AT_RATE_HZ: f32 = 12.0;
+/// Rate of the filter by which the trunk leans with an acceleration (`lean`), 1/s: it lags by 0.1 s.
+const LEAN_RATE_HZ: f32 = 30.0;
+/// Rate of the filter that shifts the weight before a first step (`weight_shift`), 1/s: within 0.3 s the pelvis makes
+/// four fifths of the shift.
+const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
+/// Rate of the filter that turns the shoulders in a gap (`squeeze`), 1/s: four fifths of the turn are made in 0.45 s, in
+/// which a walking body passes the strip of half a metre ahead.
+const SQUEEZE_RATE_HZ: f32 = 10.0;
+/// Rate of the filter that removes a jump of the phase (`secondary_motion`), 1/s: nobody sees it within a stride.
+const SECONDARY_RATE_HZ: f32 = 4.0;
 /// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s. A switch happens at
 /// mid-stance: 14 % is left when the next foot lands (0.3 s), 5 % after a step (0.4 s).
 const INERTIA_RATE_HZ: f32 = 12.0;
@@ -69,6 +79,14 @@ pub struct TimeStep {
     pub(crate) travel: Spring,
     /// Spring of the look-at angle.
     pub(crate) look_at: Spring,
+    /// Filter of the trunk's lean.
+    pub(crate) lean: SoftSpring,
+    /// Filter of the turn of the shoulders.
+    pub(crate) squeeze: SoftSpring,
+    /// Filter of the phase of secondary motion.
+    pub(crate) secondary: SoftSpring,
+    /// Filter of the weight shift.
+    pub(crate) weight_shift: SoftSpring,
     /// Spring of the pose difference after a switch.
     pub(crate) inertia: Spring,
     /// Filter that releases a foot lock.
@@ -97,6 +115,10 @@ impl TimeStep {
             pace_left: left(PACE_TIME_S),
             travel: spring(TRAVEL_RATE_HZ),
             look_at: spring(LOOK_AT_RATE_HZ),
+            lean: soft_spring(LEAN_RATE_HZ),
+            squeeze: soft_spring(SQUEEZE_RATE_HZ),
+            secondary: soft_spring(SECONDARY_RATE_HZ),
+            weight_shift: soft_spring(WEIGHT_SHIFT_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),
             lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
             foot_lift: soft_spring(FOOT_LIFT_RATE_HZ),

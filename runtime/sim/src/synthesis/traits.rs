@@ -4,6 +4,8 @@
 //!   ([`crate::synthesis::blending::cadence_curve`]). Semi-procedural locomotion states its cadence itself.
 //! - *Arms*: upper arms and forearms swing more or less about their mean in the base walk, each side by itself.
 //! - *Pitch* of trunk and head. The head takes the trunk's pitch back.
+//! - *Secondary motion*: head, forearms and hands of a walking body move a little
+//!   ([`crate::synthesis::pose::secondary_motion`]).
 //! - *First foot*: where both feet stand side by side, one of them makes the first step.
 //!
 //! Lengths in metres, angles in radians; a pitch is positive forward.
@@ -14,7 +16,8 @@ use motiondb::body::{JOINT_COUNT, Joint, Pose};
 use crate::maths::angle::rotation;
 
 /// Joints of each arm that swing, `[left, right]`.
-const ARMS: [[Joint; 2]; 2] = [[Joint::LeftUpperArm, Joint::LeftForearm], [Joint::RightUpperArm, Joint::RightForearm]];
+pub(crate) const ARMS: [[Joint; 2]; 2] =
+    [[Joint::LeftUpperArm, Joint::LeftForearm], [Joint::RightUpperArm, Joint::RightForearm]];
 
 /// What one body does differently.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,12 +32,24 @@ pub struct Traits {
     pub head_pitch_rad: f32,
     /// Lead of the left foot, m, up to which it makes the first step; negative where the right foot does.
     pub first_foot_m: f32,
+    /// Secondary motion, divided by that of captures, where the clips lack it.
+    pub secondary_motion: f32,
+    /// Seed of the secondary motion.
+    pub secondary_seed: u64,
 }
 
 impl Default for Traits {
     /// A body that moves as in the clips.
     fn default() -> Self {
-        Self { cadence: 1.0, arm_swing: [1.0; 2], trunk_pitch_rad: 0.0, head_pitch_rad: 0.0, first_foot_m: 0.0 }
+        Self {
+            cadence: 1.0,
+            arm_swing: [1.0; 2],
+            trunk_pitch_rad: 0.0,
+            head_pitch_rad: 0.0,
+            first_foot_m: 0.0,
+            secondary_motion: 0.0,
+            secondary_seed: 0,
+        }
     }
 }
 
@@ -52,7 +67,7 @@ impl Traits {
 }
 
 /// A rotation whose deviation from a mean is scaled.
-fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
+pub(crate) fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
     let mean = if mean.dot(rotation) < 0.0 { -mean } else { mean };
     (mean * (1.0 - factor) + rotation * factor).normalize()
 }

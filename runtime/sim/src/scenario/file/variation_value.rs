@@ -8,6 +8,7 @@
 //! arm_asymmetry = 0.1                 # ... and of one arm against the other
 //! trunk_pitch_deg = 2
 //! head_pitch_deg = 4
+//! secondary_motion = 1                # of head, forearms and hands, where the clips lack it
 //! ```
 
 use std::fmt;

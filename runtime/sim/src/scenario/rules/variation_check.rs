@@ -14,6 +14,8 @@ const CADENCE: RangeInclusive<f32> = 0.0..=0.1;
 const SWING: RangeInclusive<f32> = 0.0..=0.4;
 /// Deviations of the pitch of trunk and head, degrees.
 const PITCH_DEG: RangeInclusive<f32> = 0.0..=10.0;
+/// Secondary motion, divided by that of captures.
+const SECONDARY: RangeInclusive<f32> = 0.0..=3.0;
 
 /// Checks how much bodies differ.
 ///
@@ -21,8 +23,15 @@ const PITCH_DEG: RangeInclusive<f32> = 0.0..=10.0;
 /// The first number that is out of range.
 pub(crate) fn check_variation(variation: &Variation) -> Result<(), ScenarioFault> {
     let part = &ScenarioPart::Variation;
-    let Variation { reaction_s: [from_s, to_s], cadence, arm_swing, arm_asymmetry, trunk_pitch_deg, head_pitch_deg } =
-        *variation;
+    let Variation {
+        reaction_s: [from_s, to_s],
+        cadence,
+        arm_swing,
+        arm_asymmetry,
+        trunk_pitch_deg,
+        head_pitch_deg,
+        secondary_motion,
+    } = *variation;
     let help = "write `reaction_s = [least, greatest]`, in seconds";
     within(part, "the least of reaction_s", from_s, &REACTION_S, help)?;
     within(part, "the greatest of reaction_s", to_s, &(from_s..=*REACTION_S.end()), help)?;
@@ -30,7 +39,8 @@ pub(crate) fn check_variation(variation: &Variation) -> Result<(), ScenarioFault
     within(part, "arm_swing", arm_swing, &SWING, REMOVE)?;
     within(part, "arm_asymmetry", arm_asymmetry, &SWING, REMOVE)?;
     within(part, "trunk_pitch_deg", trunk_pitch_deg, &PITCH_DEG, REMOVE)?;
-    within(part, "head_pitch_deg", head_pitch_deg, &PITCH_DEG, REMOVE)
+    within(part, "head_pitch_deg", head_pitch_deg, &PITCH_DEG, REMOVE)?;
+    within(part, "secondary_motion", secondary_motion, &SECONDARY, REMOVE)
 }
 
 #[cfg(test)]

@@ -39,6 +39,11 @@ pub(crate) fn first_step_phase(
     passing_phase - LIFT_OFF_PHASE
 }
 
+/// The foot that stays on the ground in a first step from a phase; 0 is the left one.
+pub(crate) fn stance_foot(first_step_phase: f32) -> usize {
+    usize::from(first_step_phase > 0.5)
+}
+
 /// Whether both feet are planted, and near enough to their positions in standing.
 pub(crate) fn feet_gathered(contact: &ContactState, root: &Root, domain: &BlendDomain) -> bool {
     let frame = root.frame();

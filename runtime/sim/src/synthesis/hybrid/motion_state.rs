@@ -176,12 +176,17 @@ impl MotionState {
         if lead_s == 0.0 { *root } else { Root { position_m: root.position_m + ahead_m(db), ..*root } }
     }
 
-    /// Velocity of the drawn motion in the body's frame, m/s.
-    fn drawn_mps(&self, db: &MotionDb) -> Vec2 {
-        let Parameters { speed_mps, strafe_mps, .. } = match self.mode {
+    /// Parameters of the drawn motion.
+    pub(crate) fn drawn_parameters(&self, db: &MotionDb) -> Parameters {
+        match self.mode {
             Mode::Blending => self.smoothed[0].mix.parameters(db),
             Mode::SemiProcedural => self.smoothed[0].parameters,
-        };
+        }
+    }
+
+    /// Velocity of the drawn motion in the body's frame, m/s.
+    fn drawn_mps(&self, db: &MotionDb) -> Vec2 {
+        let Parameters { speed_mps, strafe_mps, .. } = self.drawn_parameters(db);
         Vec2::new(speed_mps, strafe_mps)
     }
 

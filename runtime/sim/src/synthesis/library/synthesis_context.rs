@@ -10,6 +10,8 @@ use crate::synthesis::HmsParams;
 use crate::synthesis::blending::BlendDomain;
 use crate::synthesis::library::augmented_database::{augmented, walk};
 use crate::synthesis::library::hybrid_data::HybridData;
+use crate::synthesis::pose::LackingMotion;
+use crate::synthesis::pose::squeeze::shoulder_breadth_m;
 
 /// A database and what the synthesis derives from it, shared by all bodies.
 ///
@@ -39,6 +41,10 @@ pub struct SynthesisContext {
     pub base_hz: f32,
     /// Speed of the base walk, m/s.
     pub base_mps: f32,
+    /// Breadth of the shoulders, m.
+    pub shoulder_breadth_m: f32,
+    /// What the base walk lacks of secondary motion.
+    pub lacking: LackingMotion,
     /// Tunables.
     pub params: HmsParams,
 }
@@ -51,6 +57,7 @@ impl SynthesisContext {
         let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
         let base_mps = db.examples[base].parameters.speed_mps.abs().max(f32::MIN_POSITIVE);
-        Self { domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
+        let (lacking, shoulder_breadth_m) = (LackingMotion::of(&db, base), shoulder_breadth_m(&db.skeleton));
+        Self { lacking, shoulder_breadth_m, domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
     }
 }

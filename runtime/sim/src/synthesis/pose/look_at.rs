@@ -62,7 +62,7 @@ impl LookAt {
 }
 
 /// The part of a turn that the limits of a joint allow, rad. A pose beyond a limit turns no further.
-fn within_limits_rad(turn_rad: f32, rotation: Quat, [least_rad, greatest_rad]: [f32; 2]) -> f32 {
+pub(crate) fn within_limits_rad(turn_rad: f32, rotation: Quat, [least_rad, greatest_rad]: [f32; 2]) -> f32 {
     // An arc is at most π/2 times its sine, so |yaw| ≤ π·|z|: usually far from the limits.
     if PI * rotation.z.abs() + turn_rad.abs() <= greatest_rad.min(-least_rad) {
         return turn_rad;

@@ -54,6 +54,12 @@ impl Posture {
         self.feet = feet;
     }
 
+    /// Moves the pelvis to the left, m; the targets of the feet stay.
+    pub(crate) fn shift(&mut self, left_m: f32) {
+        self.pose.pelvis_m.y += left_m;
+        self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.y += left_m);
+    }
+
     fn lower(&mut self, drop_m: f32) {
         self.lowered_m += drop_m;
         self.pose.pelvis_m.z -= drop_m;

@@ -1,0 +1,142 @@
+//! Squeeze: a body turns its shoulders in a narrow gap, and holds its arms still. `FbCrowd` does not have it.
+//!
+//! People turn their shoulders in gaps below 1.3 times their breadth (Warren and Whang 1987, *J. Exp. Psychol.: Hum.
+//! Percept. Perform.* 13, 371–383), so that they keep that room. With the gap A and the breadth S,
+//!
+//! ```text
+//! cos ψ = A/(1.3·S),   ψ ≤ 45°.
+//! ```
+//!
+//! The shoulder on the nearer side turns forward. The spine shares the angle within its joint limits, and neck and head
+//! turn back: the gaze stays ahead. Root, pelvis and legs do not depend on it.
+//!
+//! Angles counter-clockwise from above, radians; metres.
+
+use glam::Quat;
+use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+
+use crate::maths::angle::yaw;
+use crate::synthesis::TimeStep;
+use crate::synthesis::pose::look_at::within_limits_rad;
+use crate::synthesis::traits::{ARMS, swung};
+
+/// Gap, divided by the breadth of the shoulders, below which shoulders turn.
+const WIDE: f32 = 1.3;
+/// Greatest turn of the shoulders, rad.
+const ANGLE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
+/// Angle above which the turn keeps its side, rad.
+const KEPT_RAD: f32 = 0.1;
+/// Angle below which the pose is left unchanged, rad.
+const AHEAD_RAD: f32 = 1e-3;
+/// Share of the swing that arms lose at the greatest angle.
+const STILL_ARMS: f32 = 0.7;
+/// Joints that turn, and their shares of the angle; neck and head take it back.
+const SHARES: [(Joint, f32); 5] = [
+    (Joint::SpineLower, 0.3),
+    (Joint::SpineMiddle, 0.35),
+    (Joint::SpineUpper, 0.35),
+    (Joint::Neck, -0.5),
+    (Joint::Head, -0.5),
+];
+
+/// The turn of a body's shoulders.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Squeeze {
+    /// Angle, rad, its rate of change, rad/s, and its acceleration, rad/s².
+    angle_rad: [f32; 3],
+    /// Whether the left shoulder turns forward.
+    left_first: bool,
+}
+
+impl Squeeze {
+    /// Follows a gap over one step: the distances to its left and right end, m.
+    pub(crate) fn follow(&mut self, gap_m: Option<[f32; 2]>, breadth_m: f32, step: &TimeStep) {
+        let target_rad = gap_m.map_or(0.0, |[left_m, right_m]| {
+            if self.angle_rad[0].abs() < KEPT_RAD {
+                self.left_first = left_m < right_m;
+            }
+            let size_rad = libm::acosf(((left_m + right_m) / (WIDE * breadth_m)).min(1.0)).min(ANGLE_MAX_RAD);
+            if self.left_first { -size_rad } else { size_rad }
+        });
+        let [angle_rad, rate, acceleration] = self.angle_rad;
+        let [off_rad, rate, acceleration] = step.squeeze.decayed([angle_rad - target_rad, rate, acceleration]);
+        self.angle_rad = [target_rad + off_rad, rate, acceleration];
+    }
+
+    /// Turns the shoulders of a pose, and stills its arms about their means in the base walk.
+    pub(crate) fn turn(&self, pose: &mut Pose, mean_rotations: &[Quat; JOINT_COUNT], skeleton: &Skeleton) {
+        let angle_rad = self.angle_rad[0];
+        if angle_rad.abs() < AHEAD_RAD {
+            return;
+        }
+        let swing = 1.0 - STILL_ARMS * (angle_rad.abs() / ANGLE_MAX_RAD).min(1.0);
+        for joint in ARMS.into_iter().flatten().map(Joint::index) {
+            pose.rotations[joint] = swung(mean_rotations[joint], pose.rotations[joint], swing);
+        }
+        for (joint, share) in SHARES {
+            let rotation = &mut pose.rotations[joint.index()];
+            let [least, greatest] = skeleton.limits_rad[joint.index()];
+            *rotation = yaw(within_limits_rad(share * angle_rad, *rotation, [least.z, greatest.z])) * *rotation;
+        }
+    }
+}
+
+/// Breadth of the shoulders in a rest pose: between the shoulder joints, and the girth of both upper arms, m.
+pub(crate) fn shoulder_breadth_m(skeleton: &Skeleton) -> f32 {
+    let to_joint_m = |arm: Joint| {
+        let clavicle_m = arm.parent().map_or(0.0, |joint| skeleton.offsets_m[joint.index()].y.abs());
+        clavicle_m + skeleton.offsets_m[arm.index()].y.abs() + skeleton.segment_radii_m[arm.index()]
+    };
+    Joint::UPPER_ARMS.into_iter().map(to_joint_m).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::test_db::test_db;
+
+    /// Turn of the shoulders after a second in a gap, divided by the breadth, degrees.
+    fn turned_deg(width: f32) -> f32 {
+        let (mut squeeze, step) = (Squeeze::default(), TimeStep::new(1.0 / 60.0));
+        (0..60).for_each(|_| squeeze.follow(Some([0.25 * width, 0.25 * width]), 0.5, &step));
+        squeeze.angle_rad[0].abs().to_degrees()
+    }
+
+    #[test]
+    fn shoulders_turn_in_gaps_below_1_3_breadths() {
+        assert!(turned_deg(1.0) > 30.0 && turned_deg(0.8) <= 45.01, "{} {}", turned_deg(1.0), turned_deg(0.8));
+        assert!(turned_deg(1.2) > 10.0 && turned_deg(1.5) < 0.1, "{} {}", turned_deg(1.2), turned_deg(1.5));
+    }
+
+    #[test]
+    fn the_nearer_shoulder_turns_forward_and_keeps_turning() {
+        let step = TimeStep::new(1.0 / 60.0);
+        for (gap_m, sign) in [([0.2, 0.25], -1.0), ([0.25, 0.2], 1.0)] {
+            let mut squeeze = Squeeze::default();
+            (0..40).for_each(|_| squeeze.follow(Some(gap_m), 0.5, &step));
+            (0..40).for_each(|_| squeeze.follow(Some([gap_m[1], gap_m[0]]), 0.5, &step));
+            assert!(sign * squeeze.angle_rad[0] > 0.3, "{gap_m:?}: {squeeze:?}");
+        }
+    }
+
+    #[test]
+    fn the_shoulders_turn_and_the_gaze_stays() {
+        let db = test_db();
+        let before = db.rows.pose(2, 10);
+        let mut pose = before;
+        let mean = db.rows.mean_pose(2).rotations;
+        Squeeze { angle_rad: [0.5, 0.0, 0.0], left_first: false }.turn(&mut pose, &mean, &db.skeleton);
+        let [from, to] = [before, pose].map(|pose| pose.forward_kinematics(&db.skeleton));
+        let ahead_rad = |joints: &motiondb::body::Joints, joint: Joint| {
+            let ahead = joints.orientations[joint.index()] * Vec3::X;
+            libm::atan2f(ahead.y, ahead.x)
+        };
+        let turn_rad = |joint: Joint| ahead_rad(&to, joint) - ahead_rad(&from, joint);
+        assert!((turn_rad(Joint::SpineUpper) - 0.5).abs() < 0.02, "{}", turn_rad(Joint::SpineUpper));
+        assert!(turn_rad(Joint::Head).abs() < 0.02, "{}", turn_rad(Joint::Head));
+        let legs = Joint::LeftThigh.index()..;
+        assert_eq!(from.positions_m[legs.clone()], to.positions_m[legs]);
+    }
+}
