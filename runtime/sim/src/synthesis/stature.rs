@@ -50,12 +50,13 @@ impl Stature {
 
     /// A plan of the crowd's world in the body's.
     pub fn plan_of_body(self, plan: &Plan) -> Plan {
-        let Plan { velocity_mps, time_to_collision_s, strafing_s, stepping_back_s, .. } = *plan;
+        let Plan { velocity_mps, time_to_collision_s, strafing_s, stepping_back_s, gap_m, .. } = *plan;
         Plan {
             velocity_mps: velocity_mps / self.root,
             time_to_collision_s: time_to_collision_s / self.root,
             strafing_s: strafing_s / self.root,
             stepping_back_s: stepping_back_s / self.root,
+            gap_m: gap_m.map(|sides_m| sides_m.map(|side_m| side_m / self.size)),
             ..*plan
         }
     }

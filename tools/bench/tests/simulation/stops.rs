@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::synthesis::SynthesisContext;
-use fbcrowd_sim::synthesis::blending::BlendDomain;
 use fbcrowd_sim::synthesis::command::plan_requesting;
 use fbcrowd_sim::synthesis::{HmsParams, Modes};
 use glam::{Vec2, Vec3};
@@ -221,16 +220,7 @@ fn a_reversal_keeps_the_stance_foot_planted() {
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn a_side_step_without_a_clip_moves_no_body() {
     let db = marine_without("Strafe");
-    // As it is: a completed set has side-steps.
-    let context = SynthesisContext {
-        domain: BlendDomain::new(&db),
-        hybrid: None,
-        mean_rotations: db.rows.mean_pose(0).rotations,
-        base_hz: 0.9,
-        base_mps: 1.1,
-        params: HmsParams::default(),
-        db: Arc::new(db),
-    };
+    let context = SynthesisContext::of_complete(Arc::new(db), HmsParams::default());
     let steps = walk(&context, 3.0, |_, _| Plan { velocity_mps: Vec2::new(0.0, 0.5), ..Plan::default() });
     assert!(steps.iter().all(|step| step.root == Root::default()));
 }

@@ -50,9 +50,13 @@ pub struct SynthesisContext {
 }
 
 impl SynthesisContext {
-    /// Prepares a database for the syntheses that the tunables name.
+    /// Prepares a database for the syntheses that the tunables name, and adds the examples that a crowd needs.
     pub fn new(db: Arc<MotionDb>, params: HmsParams) -> Self {
-        let db = augmented(db);
+        Self::of_complete(augmented(db), params)
+    }
+
+    /// Prepares a database as it is: of a set without side-steps, bodies do not side-step.
+    pub fn of_complete(db: Arc<MotionDb>, params: HmsParams) -> Self {
         let base = walk(&db).unwrap_or(0);
         let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
