@@ -34,7 +34,7 @@ impl Body {
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
-        motion.time_steps(target, context, step);
+        motion.time_steps(root, target, context, step);
         motion.advance_phase(step.dt_s * rate_factor * motion.timing.pace, context);
         let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);

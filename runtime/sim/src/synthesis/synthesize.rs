@@ -50,7 +50,7 @@ impl Body {
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
         let Self { root, motion, contact, look_at, lean, secondary, squeeze, weight_shift, .. } = self;
         // All is done in the frame of the root under the drawn body.
-        let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root, &context.db).frame());
+        let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root).frame());
         let active = motion.active(context);
         let mut posture = active_posture(motion, &active, context);
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);

@@ -26,6 +26,8 @@ const SMOOTHING_TIME_S: f32 = 0.05;
 const USUAL_LAG_TIME_S: f32 = 1.2;
 /// Time constant with which the pace of a slow step changes (`step_timing`), s: legs do not jerk.
 const PACE_TIME_S: f32 = 0.03;
+/// Time constant with which a lead decays that steps do not make up (`step_timing`), s: slower than a weight shift.
+const LEAD_TIME_S: f32 = 0.5;
 /// Rate of the spring that turns the direction of travel about (`pose_smoothing`), 1/s: the legs reverse in one step.
 const TRAVEL_RATE_HZ: f32 = 10.0;
 /// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
@@ -75,6 +77,8 @@ pub struct TimeStep {
     pub(crate) usual_lag_left: f32,
     /// Share left of the earlier pace of steps.
     pub(crate) pace_left: f32,
+    /// Share left of a lead that steps do not make up.
+    pub(crate) lead_left: f32,
     /// Spring of the direction of travel.
     pub(crate) travel: Spring,
     /// Spring of the look-at angle.
@@ -113,6 +117,7 @@ impl TimeStep {
             smoothing_left: left(SMOOTHING_TIME_S),
             usual_lag_left: left(USUAL_LAG_TIME_S),
             pace_left: left(PACE_TIME_S),
+            lead_left: left(LEAD_TIME_S),
             travel: spring(TRAVEL_RATE_HZ),
             look_at: spring(LOOK_AT_RATE_HZ),
             lean: soft_spring(LEAN_RATE_HZ),

@@ -155,7 +155,7 @@ impl MotionState {
     }
 
     /// Lets the pace of the steps follow the motion, which moves toward a target, over one step.
-    pub(crate) fn time_steps(&mut self, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
+    pub(crate) fn time_steps(&mut self, root: &Root, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
         let mean_hz = match self.deformed(context) {
             Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
             None => self.mix.strides_hz(&context.db),
@@ -163,17 +163,15 @@ impl MotionState {
         let gait = GaitTiming {
             mean_hz,
             base_hz: self.traits.cadence * context.base_hz,
-            speed_mps: self.drawn_mps(&context.db).length(),
+            velocity_mps: root.forward().rotate(self.drawn_mps(&context.db)),
             target: Vec2::new(target.speed_mps, target.strafe_mps).length() / context.base_mps,
         };
         self.timing.follow(self.phase, &gait, step);
     }
 
     /// The root under the body as it is drawn, for a body at `root`: ahead of it or behind by the lead.
-    pub(crate) fn drawn_root(&self, root: &Root, db: &MotionDb) -> Root {
-        let lead_s = self.timing.lead_s;
-        let ahead_m = |db| root.frame().forward.rotate(lead_s * self.drawn_mps(db));
-        if lead_s == 0.0 { *root } else { Root { position_m: root.position_m + ahead_m(db), ..*root } }
+    pub(crate) fn drawn_root(&self, root: &Root) -> Root {
+        Root { position_m: root.position_m + self.timing.lead_m, ..*root }
     }
 
     /// Parameters of the drawn motion.

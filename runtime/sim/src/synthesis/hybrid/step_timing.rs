@@ -4,17 +4,22 @@
 //! at a low cadence. In people the swing of short steps takes no longer than that of a walk (captures: .3 to .4 s at 15 to
 //! 60 cm), and both feet stand meanwhile. So the phase runs quickly while a foot swings, and waits while both are planted.
 //!
-//! The root moves evenly, as the planner expects; the body moves in steps. It is drawn where the root is a lead of time ℓ
-//! later or earlier at its present velocity, so planted feet hold. With the pace g, the phase rate over its mean φ',
+//! The root moves evenly, as the planner expects; the body moves in steps. It is drawn ahead of its root or behind it by a
+//! lead, so that planted feet hold. With the pace g, the phase rate over its mean φ', the velocity v of the root, and the
+//! lead d, of which ℓ is the time along v,
 //!
 //! ```text
-//! ℓ' = g − 1
+//! d' = (g − 1)·v,  ℓ = d·v/v²
 //! g = q              while a foot swings
 //! g = R/(R + ℓ + G/2)  while both feet stand: over R, the time that this still takes at pace 1, ℓ falls to −G/2
 //! G = (1 − 1/q)·T      lead that a swing of duration T at pace 1 gains.
 //! ```
 //!
-//! Seconds; phases as in [`crate::synthesis`].
+//! A lead across v, and that of a body at rest, decays: nothing else makes it up.
+//!
+//! World, metres, seconds; phases as in [`crate::synthesis`].
+
+use glam::Vec2;
 
 use crate::synthesis::TimeStep;
 
@@ -26,6 +31,10 @@ const SHORT_SWING: f32 = 0.8;
 const SHORT_STEPS: [f32; 2] = [0.75, 1.0];
 /// Greatest distance of the body from its root, m: half a small step.
 const LEAD_MAX_M: f32 = 0.1;
+/// Lead that is over, m.
+const LEAD_OVER_M: f32 = 2e-4;
+/// Speed below which a body makes up no lead by its steps, m/s.
+const RESTING_MPS: f32 = 0.1;
 /// Greatest pace of a swing.
 const PACE_MAX: f32 = 6.0;
 /// Range of the pace while both feet stand.
@@ -36,24 +45,27 @@ const RESTING_PACE: [f32; 2] = [0.02, 2.0];
 pub(crate) struct StepTiming {
     /// g, the phase rate divided by its mean.
     pub(crate) pace: f32,
-    /// ℓ, the time by which the body is ahead of its root, s.
-    pub(crate) lead_s: f32,
+    /// d, from the root to the body, m.
+    pub(crate) lead_m: Vec2,
 }
 
 impl Default for StepTiming {
     fn default() -> Self {
-        Self { pace: 1.0, lead_s: 0.0 }
+        Self { pace: 1.0, lead_m: Vec2::ZERO }
     }
 }
 
 impl StepTiming {
     /// Follows a gait at a phase.
     pub(crate) fn follow(&mut self, phase: f32, gait: &GaitTiming, step: &TimeStep) {
-        let &GaitTiming { mean_hz, base_hz, speed_mps, target } = gait;
+        let &GaitTiming { mean_hz, base_hz, velocity_mps, target } = gait;
         let swing_pace = swing_pace(mean_hz / base_hz, target);
         if swing_pace == 1.0 && *self == Self::default() {
             return;
         }
+        let speed_mps = velocity_mps.length();
+        let along = velocity_mps.normalize_or_zero();
+        let lead_s = self.lead_m.dot(along) / speed_mps.max(RESTING_MPS);
         // Phase since the nearest mid-stance.
         let since = phase - 0.5 * (2.0 * phase).round();
         let pace = if since.abs() < SWING_HALF {
@@ -62,14 +74,15 @@ impl StepTiming {
             let gained_s = (1.0 - 1.0 / swing_pace) * 2.0 * SWING_HALF / mean_hz;
             let left_s = (-SWING_HALF - since).rem_euclid(0.5) / mean_hz;
             let [least, greatest] = RESTING_PACE;
-            let until_s = (left_s + self.lead_s + 0.5 * gained_s).max(f32::MIN_POSITIVE);
+            let until_s = (left_s + lead_s + 0.5 * gained_s).max(f32::MIN_POSITIVE);
             (left_s / until_s).clamp(least, greatest)
         };
         self.pace = pace + step.pace_left * (self.pace - pace);
-        let lead_max_s = LEAD_MAX_M / speed_mps.max(f32::MIN_POSITIVE);
-        self.lead_s = (self.lead_s + (self.pace - 1.0) * step.dt_s).clamp(-lead_max_s, lead_max_s);
-        let is_over = |off: f32| off.abs() < 1e-3;
-        if swing_pace == 1.0 && is_over(self.pace - 1.0) && is_over(self.lead_s) {
+        let walking = (speed_mps / RESTING_MPS).min(1.0);
+        let kept_m = walking * self.lead_m.dot(along) * along;
+        let lead_m = kept_m + step.lead_left * (self.lead_m - kept_m) + (self.pace - 1.0) * step.dt_s * velocity_mps;
+        self.lead_m = lead_m.clamp_length_max(LEAD_MAX_M);
+        if swing_pace == 1.0 && (self.pace - 1.0).abs() < 1e-3 && self.lead_m.length() < LEAD_OVER_M {
             *self = Self::default();
         }
     }
@@ -82,8 +95,8 @@ pub(crate) struct GaitTiming {
     pub(crate) mean_hz: f32,
     /// Phase rate of the base walk, 1/s.
     pub(crate) base_hz: f32,
-    /// Speed of the gait, m/s.
-    pub(crate) speed_mps: f32,
+    /// v, velocity of the gait, world, m/s.
+    pub(crate) velocity_mps: Vec2,
     /// Speed to which the body is to change, divided by that of the base walk.
     pub(crate) target: f32,
 }
@@ -105,7 +118,7 @@ mod tests {
     const STRIDE_M: f32 = 0.5;
 
     fn gait(mean_hz: f32, speed_mps: f32) -> GaitTiming {
-        GaitTiming { mean_hz, base_hz: 0.83, speed_mps, target: speed_mps / 1.1 }
+        GaitTiming { mean_hz, base_hz: 0.83, velocity_mps: speed_mps * Vec2::X, target: speed_mps / 1.1 }
     }
 
     /// Durations of the swings and of whole strides of a gait, and the range of its lead after some strides, s.
@@ -120,7 +133,8 @@ mod tests {
                 all_s += dt_s;
                 strides += dt_s * mean_hz * timing.pace;
                 swing_s += if swings { dt_s } else { 0.0 };
-                leads_s = [leads_s[0].min(timing.lead_s), leads_s[1].max(timing.lead_s)];
+                let lead_s = timing.lead_m.x / (STRIDE_M * mean_hz);
+                leads_s = [leads_s[0].min(lead_s), leads_s[1].max(lead_s)];
             }
             phase -= phase.floor();
         }
@@ -152,15 +166,19 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_speeds_up_stays_near_its_root() {
-        let (mut timing, step) = (StepTiming { pace: 1.0, lead_s: 0.7 }, TimeStep::new(1.0 / 60.0));
-        timing.follow(0.0, &gait(0.7, 1.0), &step);
-        assert!(timing.lead_s <= LEAD_MAX_M, "{timing:?}");
+    fn a_body_that_turns_or_speeds_up_does_not_leap() {
+        let lead_m = 0.08 * Vec2::X;
+        for velocity_mps in [Vec2::X, Vec2::Y, 0.05 * Vec2::Y] {
+            let (mut timing, step) = (StepTiming { pace: 1.0, lead_m }, TimeStep::new(1.0 / 60.0));
+            timing.follow(0.25, &GaitTiming { velocity_mps, ..gait(0.7, 1.0) }, &step);
+            assert!(timing.lead_m.distance(lead_m) < 0.02, "{timing:?}");
+        }
     }
 
     #[test]
     fn a_lead_is_made_up_where_the_body_walks_on() {
-        let (mut timing, step, mut phase) = (StepTiming { pace: 3.0, lead_s: 0.4 }, TimeStep::new(1.0 / 60.0), 0.1_f32);
+        let (mut timing, step, mut phase) =
+            (StepTiming { pace: 3.0, lead_m: 0.08 * Vec2::X }, TimeStep::new(1.0 / 60.0), 0.1_f32);
         for _ in 0..300 {
             timing.follow(phase, &gait(0.9, 0.2), &step);
             phase = (phase + timing.pace * 0.9 / 60.0).fract();
