@@ -61,11 +61,13 @@ fn validate_follows_its_schema_and_lists_every_invariant() {
     let names: Vec<&str> = checks.iter().map(|check| check["name"].as_str().unwrap()).collect();
     let invariants = [
         "checksum",
+        "styles_are_unique",
         "has_examples",
         "rows_are_complete",
         "indices_are_in_range",
         "names_are_unique",
         "actions_are_complete",
+        "styles_share_the_skeleton",
         "skeleton_is_a_body",
         "sources_are_finite",
         "windows_are_ordered",

@@ -93,7 +93,7 @@ fn of_coincident_examples_the_poses_are_compared() {
     let one = database_of(vec![straight("walk", 1.0), bent, straight("fast", 1.6), other_take("faster", 1.6)], 0);
     let alike = |found: &&Diagnostic| matches!(found, Diagnostic::Note(Note::CoincidentExample { .. }));
     let manner = |found: &&Diagnostic| match found {
-        Diagnostic::Note(Note::CoincidentManners { distance_cm, .. }) => *distance_cm > 10.0,
+        Diagnostic::Note(Note::CoincidentManners { distance_cm, .. }) => *distance_cm > 6.0,
         _ => false,
     };
     assert_eq!(diagnostics(&one).iter().filter(|found| manner(found)).count(), 1, "{:?}", one.sources);
