@@ -19,10 +19,11 @@ const CLIPS: [&str; 6] = [
     "cmu_cgspeed/02_01.bvh",
 ];
 
-/// The recorded examples of some clips that step.
+/// The recorded examples of some clips that step, of all styles.
 fn examples(files: &[PathBuf]) -> Vec<MotionExample> {
-    let examples = compile_files(files, &|_| ()).unwrap().db.examples;
-    examples.into_iter().filter(|example| !example.mirrored && example.key_times_s.is_some()).collect()
+    let db = compile_files(files, &|_| ()).unwrap().db;
+    let examples = db.styles().flat_map(|db| db.examples.clone());
+    examples.filter(|example| !example.mirrored && example.key_times_s.is_some()).collect()
 }
 
 /// Fails unless an example's key times are those of the same clip compiled alone, to within a row.
