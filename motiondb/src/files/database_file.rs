@@ -1,8 +1,8 @@
 //! `.fbdb`: a motion database on disk, in a [`container`]. The same clips give the same bytes: it holds no paths, no
 //! dates and no order of a hash map.
 //!
-//! The payload is the database; where the set has styles, the name of its style and the further styles, each a name and a
-//! database, follow.
+//! The payload is the database; where the set has styles, the name of its style and the further styles, each a name and
+//! a database, follow.
 
 use std::path::Path;
 

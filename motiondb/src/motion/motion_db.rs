@@ -78,6 +78,11 @@ impl MotionDb {
         self.styles().find(|db| db.style == style)
     }
 
+    /// The names of all styles, that of agents without a style first; empty for clips without style.
+    pub fn style_names(&self) -> Vec<String> {
+        self.styles().map(|db| db.style.clone()).collect()
+    }
+
     /// Whether the set distinguishes styles.
     pub fn has_styles(&self) -> bool {
         !self.style.is_empty() || !self.further_styles.is_empty()

@@ -6,8 +6,8 @@ use crate::validate::{CheckResult, ensure};
 /// Greatest length of a style's name, bytes.
 const NAME_MAX_BYTES: usize = 64;
 
-/// Whether a style may have this name: letters, digits, and between them spaces, `-` and `_`. Pictures of a style lie in a
-/// folder of its name.
+/// Whether a style may have this name: letters, digits, and between them spaces, `-` and `_`. Pictures of a style lie
+/// in a folder of its name.
 ///
 /// ```
 /// use motiondb::validate::is_style_name;

@@ -129,7 +129,7 @@ impl Agents {
         self.ids.push(id);
         self.removals.push(None);
         self.are_between_steps.push(true);
-        // As it is recorded: the way through the body's world may round it.
+        // Rounded as it is recorded: taken to the body's world and back.
         self.positions_m.push(stature.root_of_crowd(body.root).position_m);
         self.velocities_mps.push(Vec2::ZERO);
         self.facings_rad.push(spec.facing_rad);

@@ -109,8 +109,8 @@ impl AgentLife {
     }
 }
 
-/// Reaction time of an agent, by id, s: none of an agent that comes after the start. The members of a group react as its
-/// first one, so they begin to walk together.
+/// Reaction time of an agent, by id, s: none of an agent that comes after the start. The members of a group react as
+/// its first one, so they begin to walk together.
 pub(crate) fn reaction_s(scenario: &Scenario, index: usize) -> f32 {
     let (Some(spec), Some(variation)) = (scenario.agents.get(index), scenario.variation) else { return 0.0 };
     let first = spec.group.map_or(index as u32, |group| group.first);

@@ -41,6 +41,7 @@ use crate::scenario::places::state_zones::StateZones;
 use crate::simulation::doors::Doors;
 use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
+use crate::synthesis::library::context_of;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
@@ -112,8 +113,6 @@ pub struct Simulation {
     has_groups: bool,
     /// Whether agents may have different priorities.
     has_priorities: bool,
-    /// Whether bodies may have other sizes than the skeleton.
-    has_statures: bool,
     /// Number of steps so far: the index of the present frame.
     steps: u32,
 }
@@ -154,7 +153,6 @@ impl Simulation {
             contexts,
             has_groups: scenario.has_groups(),
             has_priorities: scenario.has_priorities(),
-            has_statures: scenario.has_statures(),
             steps: 0,
         };
         simulation.close_doors_at_start();
@@ -284,7 +282,7 @@ impl Simulation {
             constraints: &self.constraints[0],
             own_constraints: (self.constraints.len() > 1)
                 .then_some(OwnConstraints { styles: &agents.styles, constraints: &self.constraints }),
-            speed_factors: self.has_statures.then_some(&agents.speed_factors[..]),
+            speed_factors: Some(&agents.speed_factors),
             dt_s: self.scenario.dt_s,
             bodies: self.scenario.coupling.plans_for_bodies(),
         }
@@ -304,38 +302,35 @@ impl Simulation {
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
-        let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
-        let planned = agents.plans.par_iter().zip(&agents.statures);
-        let bodies = bodies.zip(planned).zip(&agents.wall_radii_m).zip(&agents.closed_zones).zip(&agents.styles);
-        bodies.for_each(
-            |(
-                ((((((body, stance), frame), is_between_steps), (plan, stature)), &wall_radius_m), &closed_zones),
-                &style,
-            )| {
-                let context = context_of(contexts, style);
-                let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
-                let (plan, step) = (&stature.plan_of_body(plan), &stature.step_of_body(&time_step));
-                let from = body.root;
-                match coupling {
-                    Coupling::TwoWay => body.advance(context, plan, step),
-                    Coupling::Discs | Coupling::Decoupled => {
-                        body.root = body_to_disc::as_planned(from, plan, step.dt_s);
-                    }
+        let written = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
+        let read = agents.plans.par_iter().zip(&agents.statures).zip(&agents.styles);
+        let read = read.zip(&agents.wall_radii_m).zip(&agents.closed_zones);
+        written.zip(read).for_each(|(written, read)| {
+            let (((body, stance), frame), is_between_steps) = written;
+            let ((((plan, stature), &style), &wall_radius_m), &closed_zones) = read;
+            let context = context_of(contexts, style);
+            let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
+            let (plan, step) = (&stature.plan_of_body(plan), &stature.step_of_body(&time_step));
+            let from = body.root;
+            match coupling {
+                Coupling::TwoWay => body.advance(context, plan, step),
+                Coupling::Discs | Coupling::Decoupled => {
+                    body.root = body_to_disc::as_planned(from, plan, step.dt_s);
                 }
-                let [before, root] = [from, body.root].map(|root| stature.root_of_crowd(root));
-                let kept = body_to_disc::outside_walls(before.position_m, root, wall_radius_m, obstacles);
-                body.place_root(from.position_m, stature.root_of_body(kept), step.dt_s);
-                let output = match coupling {
-                    Coupling::TwoWay => body.synthesize(context, step),
-                    Coupling::Decoupled => decoupled::follow(body, context, from, step.dt_s),
-                    Coupling::Discs => return,
-                };
-                let output = stature.output_of_crowd(&output);
-                *stance = output.stance;
-                *is_between_steps = are_between_steps(frame.contacts, output.contacts);
-                frame.show(&output);
-            },
-        );
+            }
+            let [before, root] = [from, body.root].map(|root| stature.root_of_crowd(root));
+            let kept = body_to_disc::outside_walls(before.position_m, root, wall_radius_m, obstacles);
+            body.place_root(from.position_m, stature.root_of_body(kept), step.dt_s);
+            let output = match coupling {
+                Coupling::TwoWay => body.synthesize(context, step),
+                Coupling::Decoupled => decoupled::follow(body, context, from, step.dt_s),
+                Coupling::Discs => return,
+            };
+            let output = stature.output_of_crowd(&output);
+            *stance = output.stance;
+            *is_between_steps = are_between_steps(frame.contacts, output.contacts);
+            frame.show(&output);
+        });
     }
 
     fn record(&mut self) {
@@ -358,11 +353,6 @@ impl Simulation {
             ..*frame
         };
     }
-}
-
-/// The context of a style, by index; of an unknown one that of agents without a style.
-fn context_of(contexts: &[SynthesisContext], style: u32) -> &SynthesisContext {
-    contexts.get(style as usize).unwrap_or(&contexts[0])
 }
 
 /// Whether a body is between two steps of its feet, given the contacts before and after a step of time: both feet are

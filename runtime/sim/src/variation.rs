@@ -16,8 +16,8 @@ pub(crate) const DEVIATIONS_MAX: f32 = 2.4;
 /// Lead up to which the foot that a body prefers makes the first step, m: less than a third of a small step.
 const FIRST_FOOT_M: f32 = 0.05;
 
-/// How much the bodies of a crowd differ: the table `[variation]` of a scenario. Deviations are standard deviations over
-/// agents; no agent deviates by more than 2.4 of them.
+/// How much the bodies of a crowd differ: the table `[variation]` of a scenario. Deviations are standard deviations
+/// over agents; no agent deviates by more than 2.4 of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Variation {

@@ -47,8 +47,8 @@ pub struct SceneFigures {
     pub closed_passages: Vec<ClosedPassageFigures>,
     /// Goals that some agents never reach, because zones are closed to them.
     pub barred_goals: Vec<BarredGoalsFigures>,
-    /// What the scenario states without effect, a sentence each: states that no agent enters, conditions that never hold,
-    /// doors that never open, and the like.
+    /// What the scenario states without effect, a sentence each: states that no agent enters, conditions that never
+    /// hold, doors that never open, and the like.
     pub notes: Vec<String>,
     /// Memory that the simulation needs beside its database, MiB: an estimate.
     pub memory_mib: f64,

@@ -63,7 +63,7 @@ pub struct PreparedSimulation {
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
     check_memory(scenario.agents.len())?;
     if let Some(style) = scenario.styles.iter().find(|style| db.of_style(style).is_none()) {
-        let existing = db.styles().map(|db| db.style.clone()).filter(|style| !style.is_empty()).collect();
+        let existing = db.style_names().into_iter().filter(|style| !style.is_empty()).collect();
         return Err(JobError::NoStyle { style: style.clone(), existing });
     }
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
@@ -123,7 +123,8 @@ impl PreparedSimulation {
     }
 }
 
-/// Notes where bodies move by more than the clips of their database, or can reach no goal with them; `of` names a style.
+/// Notes where bodies move by more than the clips of their database, or can reach no goal with them; `of` names a
+/// style.
 fn note_missing_motions(db: &MotionDb, complete: &MotionDb, of: &str, observer: &Observer) {
     if !coverage::walks_ahead(db) {
         let note = "none of these clips walks ahead, so no agent reaches a goal; add a walk, and compile again";

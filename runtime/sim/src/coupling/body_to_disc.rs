@@ -9,6 +9,7 @@ use motiondb::body::Root;
 use crate::agents::Agents;
 use crate::planning::plan::Plan;
 use crate::synthesis::SynthesisContext;
+use crate::synthesis::library::context_of;
 use crate::world::obstacles::Obstacles;
 
 /// The root of a disc that moves as planned.
@@ -24,7 +25,7 @@ pub fn outside_walls(from_m: Vec2, root: Root, wall_radius_m: f32, obstacles: &O
 /// Updates what planners read of the agents from the bodies and plans of a step; `contexts` are those of all styles.
 pub(crate) fn synchronize(agents: &mut Agents, contexts: &[SynthesisContext], dt_s: f32) {
     for (index, (body, stature)) in agents.bodies.iter().zip(&agents.statures).enumerate() {
-        let context = contexts.get(agents.styles[index] as usize).unwrap_or(&contexts[0]);
+        let context = context_of(contexts, agents.styles[index]);
         let root = stature.root_of_crowd(body.root);
         let moved_m: Vec2 = root.position_m - agents.positions_m[index];
         let committed_mps = body.committed_mps(context).map(|committed_mps| stature.speed_factor() * committed_mps);

@@ -83,7 +83,7 @@ pub struct Plan {
     pub strafing_s: f32,
     /// Contiguous time of stepping back, s; beyond its limit, the limit plus the rest that is due.
     pub stepping_back_s: f32,
-    /// Distances of what is nearest on the left and on the right of an agent that passes a narrow gap, m; none in the open,
-    /// and of planners that do not measure it.
+    /// Distances of what is nearest on the left and on the right of an agent that passes a narrow gap, m; none in the
+    /// open, and of planners that do not measure it.
     pub gap_m: Option<[f32; 2]>,
 }

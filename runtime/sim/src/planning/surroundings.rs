@@ -18,8 +18,8 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Finds an agent's neighbours within `range_m`, without those that walls hide, and the edges within `wall_range_m` of
-    /// the disc that walls hold.
+    /// Finds an agent's neighbours within `range_m`, without those that walls hide, and the edges within `wall_range_m`
+    /// of the disc that walls hold.
     pub(crate) fn look_around(&mut self, world: &WorldView, agent: usize, range_m: f32, wall_range_m: f32) {
         let own = world.disc(agent);
         let query = NeighbourQuery {

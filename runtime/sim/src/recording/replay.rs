@@ -73,7 +73,7 @@ pub struct RecordedStep<'a> {
     /// The database by which each body moves.
     databases: Vec<u32>,
     priorities: Option<Vec<f32>>,
-    speed_factors: Option<Vec<f32>>,
+    speed_factors: Vec<f32>,
     walls: Arc<Walls>,
 }
 
@@ -134,9 +134,7 @@ impl<'a> Replay<'a> {
         let priority =
             |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
         let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
-        let has_statures = before.iter().any(|agent| life(agent).stature != 1.0);
         let speed_factor = |agent: &AgentFrame| Stature::new(life(agent).stature).speed_factor();
-        let speed_factors = has_statures.then(|| before.iter().map(speed_factor).collect());
         let closed_zones = |(before, after): (&AgentFrame, &AgentFrame)| {
             let (own, radius_m) = (life(before).spec.closed_zones, life(before).wall_radius_m(number + 1));
             self.state_zones.for_walls(own, usize::from(after.state), before.root.position_m, radius_m)
@@ -157,7 +155,7 @@ impl<'a> Replay<'a> {
             closed_zones: before.iter().zip(&after).map(closed_zones).collect(),
             databases: before.iter().map(|agent| life(agent).database).collect(),
             priorities,
-            speed_factors,
+            speed_factors: before.iter().map(speed_factor).collect(),
             walls: self.walls(number + 1),
             before,
             after,
@@ -238,7 +236,7 @@ impl RecordedStep<'_> {
             constraints: &self.replay.constraints[0],
             own_constraints: (self.replay.constraints.len() > 1)
                 .then_some(OwnConstraints { styles: &self.databases, constraints: &self.replay.constraints }),
-            speed_factors: self.speed_factors.as_deref(),
+            speed_factors: Some(&self.speed_factors),
             dt_s,
             bodies: coupling.plans_for_bodies(),
         }

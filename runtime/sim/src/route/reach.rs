@@ -68,8 +68,8 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_areas(scenario, &walls, &meshes)
 }
 
-/// The passages that are closed, for every class of wall radii among the agents, or for that of an agent by default where
-/// there are no agents; none without walls.
+/// The passages that are closed, for every class of wall radii among the agents, or for that of an agent by default
+/// where there are no agents; none without walls.
 pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
     let state_zones = StateZones::new(scenario);
     let of_source = |source: &SourceSpec| {

@@ -178,12 +178,6 @@ impl Scenario {
             || self.sources.iter().any(|source| source.groups.is_some())
     }
 
-    /// Whether any body may have another size than the database's skeleton.
-    pub(crate) fn has_statures(&self) -> bool {
-        let of_profiles = |source: &SourceSpec| source.profiles.iter().any(|profile| profile.stature.is_some());
-        self.agents.iter().any(|agent| agent.stature != 1.0) || self.sources.iter().any(of_profiles)
-    }
-
     /// Whether any agent has a priority of its own, or may have it in a state.
     pub(crate) fn has_priorities(&self) -> bool {
         let of_sources = |source: &SourceSpec| {

@@ -11,7 +11,8 @@ use crate::planning::mcn::orientation;
 use crate::population::{Population, RadiusChange, SignalChange};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
-use crate::simulation::{Simulation, context_of};
+use crate::simulation::Simulation;
+use crate::synthesis::library::context_of;
 
 /// Rounding of discs that are meant to touch a wall, m.
 const TOUCH_M: f32 = 1e-4;

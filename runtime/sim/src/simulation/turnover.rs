@@ -8,7 +8,8 @@ use crate::population::{AgentId, AgentLife};
 use crate::route::arrival::is_at_goal;
 use crate::scenario::ranges::{AGENTS_MAX, check_agent};
 use crate::scenario::{AgentSpec, AtGoal, SourceSpec};
-use crate::simulation::{Simulation, context_of};
+use crate::simulation::Simulation;
+use crate::synthesis::library::context_of;
 
 /// Rounding of discs that are meant to touch, m.
 const TOUCH_M: f32 = 1e-4;
@@ -161,7 +162,6 @@ impl Simulation {
         let id = AgentId::from(self.population.agents.len());
         self.has_groups |= spec.group.is_some();
         self.has_priorities |= spec.priority != 0.0;
-        self.has_statures |= spec.stature != 1.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
         self.agents.push(id, &spec, &self.scenario, context_of(&self.contexts, spec.style));
         let character = self.scenario.character_of(id.0, &spec);

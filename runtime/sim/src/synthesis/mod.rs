@@ -18,7 +18,8 @@
 //! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
 //! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
 //!    chest turn; shoulders turn in gaps; the trunk leans;
-//! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the pelvis drops where a leg would not reach;
+//! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the
+//!     pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
 //!
 //! # Names

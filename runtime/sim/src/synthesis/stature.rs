@@ -1,10 +1,10 @@
 //! Stature: bodies larger or smaller than the database's skeleton, by dynamic similarity. `FbCrowd` does not have it.
 //!
 //! A body of another size walks alike at an equal Froude number v²/(g·leg) (Alexander and Jayes 1983): with the size s,
-//! lengths grow with s, times and velocities with √s, accelerations and angles not at all. So a body lives in a world of
-//! its own size, in which it is as large as the skeleton: its plan, its root and its time step are taken into that world,
-//! and what the crowd reads of it is taken back. Poses stay in it; the crowd's world shows them s times as large, about
-//! the root.
+//! lengths grow with s, times and velocities with √s, accelerations and angles not at all. So a body lives in a world
+//! of its own size, in which it is as large as the skeleton: its plan, its root and its time step are taken into that
+//! world, and what the crowd reads of it is taken back. Poses stay in it; the crowd's world shows them s times as
+//! large, about the root.
 //!
 //! Metres, seconds, radians.
 
@@ -19,23 +19,18 @@ pub struct Stature {
     /// s.
     size: f32,
     /// √s.
-    root: f32,
+    sqrt_size: f32,
 }
 
 impl Stature {
     /// The stature of a body that is `size` times as large as the skeleton.
     pub fn new(size: f32) -> Self {
-        Self { size, root: libm::sqrtf(size) }
-    }
-
-    /// s.
-    pub fn size(self) -> f32 {
-        self.size
+        Self { size, sqrt_size: libm::sqrtf(size) }
     }
 
     /// Velocities of the body, divided by those of a body of the skeleton's size.
     pub fn speed_factor(self) -> f32 {
-        self.root
+        self.sqrt_size
     }
 
     /// A root of the body's world in the crowd's.
@@ -52,10 +47,10 @@ impl Stature {
     pub fn plan_of_body(self, plan: &Plan) -> Plan {
         let Plan { velocity_mps, time_to_collision_s, strafing_s, stepping_back_s, gap_m, .. } = *plan;
         Plan {
-            velocity_mps: velocity_mps / self.root,
-            time_to_collision_s: time_to_collision_s / self.root,
-            strafing_s: strafing_s / self.root,
-            stepping_back_s: stepping_back_s / self.root,
+            velocity_mps: velocity_mps / self.sqrt_size,
+            time_to_collision_s: time_to_collision_s / self.sqrt_size,
+            strafing_s: strafing_s / self.sqrt_size,
+            stepping_back_s: stepping_back_s / self.sqrt_size,
             gap_m: gap_m.map(|sides_m| sides_m.map(|side_m| side_m / self.size)),
             ..*plan
         }
@@ -63,7 +58,7 @@ impl Stature {
 
     /// A time step of the crowd in the body's world.
     pub fn step_of_body(self, step: &TimeStep) -> TimeStep {
-        if self.root == 1.0 { *step } else { TimeStep::new(step.dt_s / self.root) }
+        if self.sqrt_size == 1.0 { *step } else { TimeStep::new(step.dt_s / self.sqrt_size) }
     }
 
     /// The output of a body in the crowd's world; its pose stays.
@@ -74,9 +69,13 @@ impl Stature {
             ball_m: self.size * foot.ball_m,
             toe_m: self.size * foot.toe_m,
             swing_m: self.size * foot.swing_m,
-            time_to_landing_s: self.root * foot.time_to_landing_s,
+            time_to_landing_s: self.sqrt_size * foot.time_to_landing_s,
         });
-        BodyOutput { stance: Stance { foot }, examples_slide_cm_s: self.root * output.examples_slide_cm_s, ..*output }
+        BodyOutput {
+            stance: Stance { foot },
+            examples_slide_cm_s: self.sqrt_size * output.examples_slide_cm_s,
+            ..*output
+        }
     }
 }
 

@@ -38,10 +38,10 @@ const LEAN_RATE_HZ: f32 = 30.0;
 /// Rate of the filter that shifts the weight before a first step (`weight_shift`), 1/s: within 0.3 s the pelvis makes
 /// four fifths of the shift.
 const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
-/// Rate of the filter that turns the shoulders in a gap (`squeeze`), 1/s: four fifths of the turn are made in 0.45 s, in
-/// which a walking body passes the strip of half a metre ahead.
+/// Rate of the filter that turns the shoulders in a gap (`squeeze`), 1/s: four fifths of the turn are made in 0.45 s,
+/// in which a walking body passes the strip of half a metre ahead.
 const SQUEEZE_RATE_HZ: f32 = 10.0;
-/// Rate of the filter that removes a jump of the phase (`secondary_motion`), 1/s: nobody sees it within a stride.
+/// Rate of the filter that removes a jump of the phase (`secondary_motion`), 1/s: too slow to show within a stride.
 const SECONDARY_RATE_HZ: f32 = 4.0;
 /// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s. A switch happens at
 /// mid-stance: 14 % is left when the next foot lands (0.3 s), 5 % after a step (0.4 s).

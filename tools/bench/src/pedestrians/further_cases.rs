@@ -18,8 +18,8 @@ const STANDS_M: f64 = 0.5;
 /// A scene turned: time at which positions are compared, s. Later they differ: rounding of 1e−5 m at 2 s grows to 0.1 m
 /// before 6 s with any turn.
 const TURNED_AT_S: f64 = 2.0;
-/// A scene turned: greatest distance of two positions at that time, m, in the median seed: in few the rounding has grown
-/// beyond it.
+/// A scene turned: greatest distance of two positions at that time, m, in the median seed: in few the rounding has
+/// grown beyond it.
 const TURNED_M: f64 = 1e-3;
 /// A scene turned: greatest difference of the mean times to goal, in standard errors of the difference between two runs
 /// with the same seed. Of three such angles with six seeds, one is beyond it by chance once in 80 times.

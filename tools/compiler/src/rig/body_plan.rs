@@ -205,7 +205,7 @@ pub(crate) fn leg_sides(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> Le
     LegSides { are_swapped: (named[0] == Side::Right) != contradict_names, contradict_names }
 }
 
-/// Whether the first leg of a pair, which is said to be the left one, stands on the right: the feet point backward.
+/// Whether the first leg of a pair, stated as the left one, stands on the right: the feet point backward.
 pub(crate) fn are_feet_backward(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> bool {
     let tips = legs.limbs.each_ref().map(|limb| toe_tip(rig, limb));
     leftness(rig, legs, arms, |frame, leg| toe_direction(rig, frame, &legs.limbs[leg], tips[leg]))

@@ -64,8 +64,8 @@ fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReaso
     Ok(roles)
 }
 
-/// Checks that the stated limbs hang together and that the trunk stands over the legs. Returns whether left and right are
-/// swapped: the feet point backward.
+/// Checks that the stated limbs hang together and that the trunk stands over the legs. Returns whether left and right
+/// are swapped: the feet point backward.
 ///
 /// # Errors
 /// [`RejectionReason::ManifestContradicted`], [`RejectionReason::NotUpright`].

@@ -1,6 +1,7 @@
 //! The databases of all styles → one database over one skeleton.
 //!
-//! All were made on one body. Only the joint limits follow from the poses of each: those of the skeleton hold all poses.
+//! All were made on one body. Only the joint limits follow from the poses of each: those of the skeleton hold all
+//! poses.
 
 use glam::Vec3;
 use motiondb::body::JOINT_COUNT;

@@ -1,7 +1,7 @@
 //! Styles: a set whose clips have styles becomes a database for each style, over one skeleton.
 //!
-//! Enters: the analysed clips of a set. Leaves: the [`StylePart`](style_part::StylePart)s, each compiled by itself; then
-//! [`MotionDb`](motiondb::motion::MotionDb)s, joined into one. A set without styles is one part.
+//! Enters: the analysed clips of a set. Leaves: the [`StylePart`](style_part::StylePart)s, each compiled by itself;
+//! then [`MotionDb`](motiondb::motion::MotionDb)s, joined into one. A set without styles is one part.
 //!
 //! Read `style_part`, then `lent_idle`, then `joined_styles`.
 

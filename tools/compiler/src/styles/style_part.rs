@@ -86,8 +86,8 @@ fn first_style(shown: &BTreeMap<String, Shown>) -> String {
     shown.keys().min_by_key(rank).cloned().unwrap_or_default()
 }
 
-/// Adds a diagnostic for each style that lacks an example or a stride, to its first clip, and for clips that are added to
-/// the first style.
+/// Adds a diagnostic for each style that lacks an example or a stride, to its first clip, and for clips that are added
+/// to the first style.
 fn note_missing(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], shown: &BTreeMap<String, Shown>, first: &str) {
     for (style, Shown { steps, gives_example }) in shown {
         let named = || style.clone();

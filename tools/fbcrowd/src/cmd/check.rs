@@ -13,7 +13,6 @@ use motiondb::files::database_file;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::png_path::check_is_png;
-use crate::cmd::simulate::style_names;
 use crate::report::crowd::scene_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -22,10 +21,11 @@ use crate::terminal::output;
 ///
 /// The picture shows walls, the mesh that routes use, the route of each agent, sources, goals and closed passages.
 ///
-/// Files that it names are read, too: database, manifest of clips, characters and cameras. It need not name a motion, nor
-/// have agents: a plan is drawn with its walls and its closed passages.
+/// Files that it names are read, too: database, manifest of clips, characters and cameras. It need not name a motion,
+/// nor have agents: a plan is drawn with its walls and its closed passages.
 ///
-/// Exit code 0: the scenario can be simulated, or lacks agents alone; 2: it has a mistake, which is shown at its line, or one of its files has.
+/// Exit code 0: the scenario can be simulated, or would be if it had agents; 2: it has a mistake, which is shown at its
+/// line, or one of its files has.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd check assets/scenarios/tradeshow.toml\n  fbcrowd check my/scene.toml --plot scene.png --json"
@@ -75,7 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 /// The styles of a scenario's motion, which must be readable: of its database, or of the list of its clips.
 fn styles_of(motion: MotionSource) -> Result<Vec<String>, Failure> {
     Ok(match motion {
-        MotionSource::Database(path) => style_names(&database_file::load(&path)?.0),
+        MotionSource::Database(path) => database_file::load(&path)?.0.style_names(),
         MotionSource::Clips(clips) => {
             let names: BTreeSet<String> = clip_paths::manifest(&[clips])?.styles().into_iter().collect();
             names.into_iter().collect()

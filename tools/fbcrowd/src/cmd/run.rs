@@ -24,7 +24,6 @@ use motiondb::motion::MotionDb;
 use crate::cmd::convert::{Conversion, Converted, duration_s};
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
-use crate::cmd::simulate::style_names;
 use crate::report::crowd::{measures_text, timings_text};
 use crate::report::plain_text::without_control_characters;
 use crate::terminal::failure::{Answer, Failure};
@@ -77,7 +76,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
-    scenario::check_styles(&file, &style_names(&db))?;
+    scenario::check_styles(&file, &db.style_names())?;
     let db = Arc::new(db);
     characters.wear(&mut scenario, &db.skeleton);
     let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;

@@ -12,7 +12,6 @@ use fbcrowd_jobs::{JobError, JobEvent};
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::files::database_file;
-use motiondb::motion::MotionDb;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::report::crowd::timings_text;
@@ -68,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         }
     }
     let (db, database_checksum) = database_file::load(&database)?;
-    scenario::check_styles(&args.scenario, &style_names(&db))?;
+    scenario::check_styles(&args.scenario, &db.style_names())?;
     // Created before the long work, so that a path that cannot be written ends it early.
     let report = args.report.as_deref().map(TimingsFile::create).transpose()?;
     characters.note(&db.skeleton, &observer);
@@ -79,11 +78,6 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     report.map_or(Ok(()), |report| report.finish(&timings))?;
     output::print(&timings_text::text(&timings))?;
     Ok(Answer::Yes)
-}
-
-/// The styles of a database.
-pub(crate) fn style_names(db: &MotionDb) -> Vec<String> {
-    db.styles().map(|db| db.style.clone()).collect()
 }
 
 /// The database that the scenario itself names.

@@ -4,10 +4,10 @@
 //! Field names carry their units. Nothing here prints.
 //!
 //! Read in this order: [`plain_text`]; the report of a compilation ([`compile_report`], [`compile_text`] with
-//! [`example_table`], [`motion`] and [`sentence_groups`], [`next_steps`]); of an inspection ([`inspect_report`], [`inspect_text`],
-//! [`correspondence_table`], [`leave_one_out_text`]; [`json_diagnostic`] is a part of both); of a character
-//! ([`character_report`]); of a validation
-//! ([`validation_report`]); of a converted scene ([`scenes`]); of scenarios, simulations and recordings ([`crowd`]).
+//! [`example_table`], [`motion`] and [`sentence_groups`], [`next_steps`]); of an inspection ([`inspect_report`],
+//! [`inspect_text`], [`correspondence_table`], [`leave_one_out_text`]; [`json_diagnostic`] is a part of both); of a
+//! character ([`character_report`]); of a validation ([`validation_report`]); of a converted scene ([`scenes`]); of
+//! scenarios, simulations and recordings ([`crowd`]).
 
 pub(crate) mod character_report;
 pub(crate) mod compile_report;

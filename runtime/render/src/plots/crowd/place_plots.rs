@@ -38,7 +38,8 @@ const LETTER_PX: f32 = 16.0;
 /// Names and points of the curves of a plot.
 type Curves = Vec<(&'static str, Vec<Vec2>)>;
 
-/// Writes a plot of each measure until a time, s, into a folder, which is made if missing; returns the paths of the files.
+/// Writes a plot of each measure until a time, s, into a folder, which is made if missing; returns the paths of the
+/// files.
 ///
 /// # Errors
 /// If the folder cannot be made or a file cannot be written.

@@ -3,8 +3,8 @@
 //! People turn their shoulders in gaps below 1.3 times their breadth (Warren and Whang 1987, *J. Exp. Psychol.: Hum.
 //! Percept. Perform.* 13, 371–383). The planner knows walls and agents near by; the synthesis turns the shoulders.
 //!
-//! Only what lies in a strip counts, from a little behind the agent to a step ahead. World axes, relative to the agent's
-//! centre, metres.
+//! Only what lies in a strip counts, from a little behind the agent to a step ahead. World axes, relative to the
+//! agent's centre, metres.
 
 use glam::Vec2;
 
@@ -13,8 +13,8 @@ use crate::planning::world_view::WorldView;
 
 /// Ends of the strip along the direction of travel, m.
 const STRIP_M: [f32; 2] = [-0.2, 0.5];
-/// Least speed at which an agent passes walls and other agents, m/s. Agents that walk side by side, and those of a queue,
-/// turn no shoulders.
+/// Least speed at which an agent passes walls and other agents, m/s. Agents that walk side by side, and those of a
+/// queue, turn no shoulders.
 const SPEED_MIN_MPS: f32 = 0.4;
 /// Greatest distance to either side, m: wider gaps turn no shoulders.
 const ASIDE_MAX_M: f32 = 0.8;

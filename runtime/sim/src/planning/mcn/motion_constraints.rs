@@ -57,8 +57,8 @@ impl MotionConstraints {
     }
 
     /// The half-plane, in world axes, of the sharp-turn edge whose cone holds v_pref, of a body whose velocities are
-    /// `factor` times those of the set. None where v_pref lies within 90° of the facing, nor where the polygon has no edge
-    /// in that direction.
+    /// `factor` times those of the set. None where v_pref lies within 90° of the facing, nor where the polygon has no
+    /// edge in that direction.
     pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2, factor: f32) -> Option<HalfPlane> {
         let local_mps = to_agent_frame(preferred_mps, forward);
         if local_mps.x >= 0.0 {
@@ -81,8 +81,8 @@ impl ConvexSet {
         }
     }
 
-    /// The set's half-planes in world axes, of a body whose velocities are `factor` times those of the set; `forward` is
-    /// the agent's facing.
+    /// The set's half-planes in world axes, of a body whose velocities are `factor` times those of the set; `forward`
+    /// is the agent's facing.
     pub fn half_planes(&self, forward: Vec2, factor: f32, source: HalfPlaneSource) -> impl Iterator<Item = HalfPlane> {
         self.half_planes.iter().map(move |&half_plane| to_world(half_plane, forward, factor, source))
     }

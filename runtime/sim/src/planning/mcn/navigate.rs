@@ -64,14 +64,15 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
 /// Eqs. 13, 14: all half-planes by rank, the least yielding first, and the best velocity, m/s.
 fn solve(world: &WorldView, agent: usize, set: VelocitySet, params: &McnParams, memory: &mut McnMemory) -> Vec2 {
     let forward = memory.forward;
-    let (parts, allowed, factor) = (&params.parts, world.constraints_of(agent).set(set), world.speed_factor(agent));
+    let (parts, constraints, factor) = (&params.parts, world.constraints_of(agent), world.speed_factor(agent));
+    let allowed = constraints.set(set);
     let half_planes = &mut memory.programs[set as usize];
     half_planes.clear();
     half_planes.extend_from_slice(&memory.of_walls); // C_iW
     half_planes.extend(world.one_way_half_planes(agent));
     half_planes.extend(of_stance(world, agent, params)); // C_bm
     if parts.sharp_turns && set == VelocitySet::Turning {
-        half_planes.extend(world.constraints_of(agent).sharp_turn(forward, world.preferred_mps[agent], factor));
+        half_planes.extend(constraints.sharp_turn(forward, world.preferred_mps[agent], factor));
     }
     if parts.hull {
         half_planes.extend(allowed.half_planes(forward, factor, set.into())); // Eqs. 4, 5
@@ -110,10 +111,10 @@ fn orient(world: &WorldView, agent: usize, velocity_mps: Vec2, params: &McnParam
         return orientation::along_the_velocity(&input);
     }
     // The paper has no stepping back: bodies that turn spanned its set.
-    let back_pedalling = params.parts.back_pedalling && world.constraints_of(agent).construction != Construction::Paper;
+    let (constraints, factor) = (world.constraints_of(agent), world.speed_factor(agent));
+    let back_pedalling = params.parts.back_pedalling && constraints.construction != Construction::Paper;
     let may_hold = back_pedalling || input.preferred_mps.dot(velocity_mps) >= 0.0;
-    let holding = world.constraints_of(agent).set(VelocitySet::Holding);
-    let factor = world.speed_factor(agent);
+    let holding = constraints.set(VelocitySet::Holding);
     let holds =
         |facing| may_hold && holding.outside_mps(facing, factor, velocity_mps) <= orientation::HOLDING_SLACK_MPS;
     orientation::decide(&input, holds, world.dt_s, params)

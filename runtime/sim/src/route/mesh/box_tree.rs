@@ -1,8 +1,8 @@
 //! Boxes around triangles, four to a box, level by level: finds the triangle at a point, and the one nearest to it.
 //!
-//! The triangles must be sorted so that neighbours in the list lie near each other ([`morton_code`](crate::maths::morton::morton_code)). A uniform grid
-//! would be quick only where all triangles are of one size; open ground has a few that span the whole scene. World,
-//! metres.
+//! The triangles must be sorted so that neighbours in the list lie near each other
+//! ([`morton_code`](crate::maths::morton::morton_code)). A uniform grid would be quick only where all triangles are of
+//! one size; open ground has a few that span the whole scene. World, metres.
 
 use glam::DVec2;
 

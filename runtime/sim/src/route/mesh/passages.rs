@@ -8,7 +8,8 @@
 //! 4. Gates join regions, the widest first. A gate that joins two sets of regions with parts of the mesh is a passage
 //!    that separates. A gate within a set with parts of the mesh is a passage too, with a detour around it.
 //!
-//! Every gap wider than [`LEAST_M`] is found whose both sides an agent can reach. Of several gaps in a row the narrowest is reported. World, metres.
+//! Every gap wider than [`LEAST_M`] is found whose both sides an agent can reach. Of several gaps in a row the
+//! narrowest is reported. World, metres.
 
 use std::collections::BTreeMap;
 
@@ -130,8 +131,8 @@ fn with_nearest_points(contours_m: &[Vec<DVec2>], near_m: f64) -> Vec<Vec<DVec2>
     contours_m.iter().map(split).collect()
 }
 
-/// The corners nearest to one, [`CORNERS_TRIED`] at most: if the disc over a line from it holds any, the line is no edge
-/// of a Delaunay triangulation, nor the narrowest across a gap.
+/// The corners nearest to one, [`CORNERS_TRIED`] at most: if the disc over a line from it holds any, the line is no
+/// edge of a Delaunay triangulation, nor the narrowest across a gap.
 fn nearest_corners(corner_m: DVec2, others_m: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut others_m: Vec<DVec2> = others_m.filter(|other_m| *other_m != corner_m).collect();
     let by_distance = |a: &DVec2, b: &DVec2| a.distance_squared(corner_m).total_cmp(&b.distance_squared(corner_m));

@@ -141,8 +141,8 @@ impl<'a> Profiles<'a> {
         Ok((profiles, characters))
     }
 
-    /// The profiles of a table that states a style itself: it goes before those of the profiles. Beside them the style of
-    /// agents without profile.
+    /// The profiles of a table that states a style itself: it goes before those of the profiles. Beside them the style
+    /// of agents without profile.
     pub(crate) fn with_style(
         &self,
         mut profiles: Vec<Profile>,

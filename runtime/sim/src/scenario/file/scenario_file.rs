@@ -154,8 +154,8 @@ impl ScenarioFile {
         self.agents.as_ref()
     }
 
-    /// The styles that tables of agents, sources and profiles state, each as often as it is stated. An empty name stands
-    /// for no style.
+    /// The styles that tables of agents, sources and profiles state, each as often as it is stated. An empty name
+    /// stands for no style.
     fn stated_styles(&self) -> impl Iterator<Item = &Spanned<String>> {
         let groups = self.agents().into_iter().flat_map(|groups| &groups.get_ref().0);
         let of_agents = groups.filter_map(|(_, group)| group.style.as_ref());

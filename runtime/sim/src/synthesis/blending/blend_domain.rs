@@ -15,8 +15,8 @@ use crate::synthesis::blending::pose_landmarks::PoseLandmarks;
 /// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie straight beyond
 /// the query.
 const BESIDE_ITERATIONS: usize = 16;
-/// Greatest number of iterations for the least rate at which the examples reach a query. One suffices where the border of
-/// the hull is flat between the first found point and the query's ray.
+/// Greatest number of iterations for the least rate at which the examples reach a query. One suffices where the border
+/// of the hull is flat between the first found point and the query's ray.
 const RATE_ITERATIONS: usize = 3;
 /// Distance from a query, divided by its length, below which the examples reach it.
 const REACHED: f32 = 1e-4;

@@ -1,16 +1,16 @@
 //! Cadence of the straight walks of a database over speed, and the rate at which a body of another cadence plays them.
 //!
 //! A body that plays the gait of speed v/r at r times its rate walks at v with the cadence r·f(v/r), where f(v) is that
-//! of the examples. Its planted feet hold, since root and phase change alike. For c times the cadence of others at equal
-//! speed,
+//! of the examples. Its planted feet hold, since root and phase change alike. For c times the cadence of others at
+//! equal speed,
 //!
 //! ```text
 //! r·f(v/r) = c·f(v).
 //! ```
 //!
-//! In people f grows with the square root of speed: step length and cadence keep their ratio, the walk ratio (Sekiya and
-//! Nagasaki 1998, *Gait & Posture* 7, 225–227). Then r = c². Clips follow it roughly; f is taken from them, and grows with
-//! no higher power than ⅔, so that r lies between 1 and c³.
+//! In people f grows with the square root of speed: step length and cadence keep their ratio, the walk ratio (Sekiya
+//! and Nagasaki 1998, *Gait & Posture* 7, 225–227). Then r = c². Clips follow it roughly; f is taken from them, and
+//! grows with no higher power than ⅔, so that r lies between 1 and c³.
 //!
 //! Speeds in m/s, f in strides per second.
 

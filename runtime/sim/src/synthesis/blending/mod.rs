@@ -2,8 +2,9 @@
 //!
 //! Enters: (v_f, ω_t, ω_s). Leaves: shares of examples, phase rate and pose.
 //!
-//! Read `blend_domain` (which examples) with `cadence_curve` (at which rate), then `example_mix` and `pose_weights` (how they move), then `pose_landmarks`
-//! (how far a change of weights moves the pose). `command::weight_transition` changes the shares over time.
+//! Read `blend_domain` (which examples) with `cadence_curve` (at which rate), then `example_mix` and `pose_weights`
+//! (how they move), then `pose_landmarks` (how far a change of weights moves the pose). `command::weight_transition`
+//! changes the shares over time.
 
 pub(crate) mod blend_domain;
 pub(crate) mod cadence_curve;

@@ -164,7 +164,7 @@ impl MotionState {
             mean_hz,
             base_hz: self.traits.cadence * context.base_hz,
             velocity_mps: root.forward().rotate(self.drawn_mps(&context.db)),
-            target: Vec2::new(target.speed_mps, target.strafe_mps).length() / context.base_mps,
+            speed_to_come: Vec2::new(target.speed_mps, target.strafe_mps).length() / context.base_mps,
         };
         self.timing.follow(self.phase, &gait, step);
     }

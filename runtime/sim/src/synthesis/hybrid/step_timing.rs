@@ -1,12 +1,13 @@
 //! Step timing: a slow body takes its steps in natural time, and rests between them on both feet.
 //!
-//! Slow steps would play in slow motion: examples at a low rate ([`crate::synthesis::command::step_state`]), or a base walk
-//! at a low cadence. In people the swing of short steps takes no longer than that of a walk (captures: .3 to .4 s at 15 to
-//! 60 cm), and both feet stand meanwhile. So the phase runs quickly while a foot swings, and waits while both are planted.
+//! Slow steps would play in slow motion: examples at a low rate ([`crate::synthesis::command::step_state`]), or a base
+//! walk at a low cadence. In people the swing of short steps takes no longer than that of a walk (captures: .3 to .4 s
+//! at 15 to 60 cm), and both feet stand meanwhile. So the phase runs quickly while a foot swings, and waits while both
+//! are planted.
 //!
-//! The root moves evenly, as the planner expects; the body moves in steps. It is drawn ahead of its root or behind it by a
-//! lead, so that planted feet hold. With the pace g, the phase rate over its mean φ', the velocity v of the root, and the
-//! lead d, of which ℓ is the time along v,
+//! The root moves evenly, as the planner expects; the body moves in steps. It is drawn ahead of its root or behind it
+//! by a lead, so that planted feet hold. With the pace g, the phase rate over its mean φ', the velocity v of the root,
+//! and the lead d, of which ℓ is the time along v,
 //!
 //! ```text
 //! d' = (g − 1)·v,  ℓ = d·v/v²
@@ -58,8 +59,8 @@ impl Default for StepTiming {
 impl StepTiming {
     /// Follows a gait at a phase.
     pub(crate) fn follow(&mut self, phase: f32, gait: &GaitTiming, step: &TimeStep) {
-        let &GaitTiming { mean_hz, base_hz, velocity_mps, target } = gait;
-        let swing_pace = swing_pace(mean_hz / base_hz, target);
+        let &GaitTiming { mean_hz, base_hz, velocity_mps, speed_to_come } = gait;
+        let swing_pace = swing_pace(mean_hz / base_hz, speed_to_come);
         if swing_pace == 1.0 && *self == Self::default() {
             return;
         }
@@ -98,14 +99,14 @@ pub(crate) struct GaitTiming {
     /// v, velocity of the gait, world, m/s.
     pub(crate) velocity_mps: Vec2,
     /// Speed to which the body is to change, divided by that of the base walk.
-    pub(crate) target: f32,
+    pub(crate) speed_to_come: f32,
 }
 
 /// q of a gait, given its phase rate and the speed to come, each divided by that of the base walk. The step that a body
 /// takes to a greater speed is no shorter than those that follow.
-fn swing_pace(rate: f32, target: f32) -> f32 {
+fn swing_pace(rate: f32, speed_to_come: f32) -> f32 {
     let [short, long] = SHORT_STEPS;
-    let rate = rate.max(target);
+    let rate = rate.max(speed_to_come);
     let shortness = ((long - rate) / (long - short)).clamp(0.0, 1.0);
     1.0 + shortness * ((1.0 / (SHORT_SWING * rate)).min(PACE_MAX) - 1.0)
 }
@@ -118,7 +119,7 @@ mod tests {
     const STRIDE_M: f32 = 0.5;
 
     fn gait(mean_hz: f32, speed_mps: f32) -> GaitTiming {
-        GaitTiming { mean_hz, base_hz: 0.83, velocity_mps: speed_mps * Vec2::X, target: speed_mps / 1.1 }
+        GaitTiming { mean_hz, base_hz: 0.83, velocity_mps: speed_mps * Vec2::X, speed_to_come: speed_mps / 1.1 }
     }
 
     /// Durations of the swings and of whole strides of a gait, and the range of its lead after some strides, s.
@@ -161,7 +162,7 @@ mod tests {
     #[test]
     fn the_first_step_of_a_walk_is_no_short_one() {
         let (mut timing, step) = (StepTiming::default(), TimeStep::new(1.0 / 60.0));
-        timing.follow(0.9, &GaitTiming { target: 1.2, ..gait(0.3, 0.2) }, &step);
+        timing.follow(0.9, &GaitTiming { speed_to_come: 1.2, ..gait(0.3, 0.2) }, &step);
         assert_eq!(timing, StepTiming::default());
     }
 

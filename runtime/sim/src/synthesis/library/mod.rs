@@ -13,3 +13,4 @@ pub(crate) mod synthesis_context;
 pub use augmented_database::{augmented, deformed_walk};
 pub use hybrid_data::HybridData;
 pub use synthesis_context::SynthesisContext;
+pub(crate) use synthesis_context::context_of;

@@ -65,3 +65,8 @@ impl SynthesisContext {
         Self { lacking, shoulder_breadth_m, domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
     }
 }
+
+/// The context of a style, by index; of an unknown one that of agents without a style.
+pub(crate) fn context_of(contexts: &[SynthesisContext], style: u32) -> &SynthesisContext {
+    contexts.get(style as usize).unwrap_or(&contexts[0])
+}

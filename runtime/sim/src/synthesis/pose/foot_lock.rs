@@ -98,8 +98,8 @@ impl FootLock {
         Self { lowest, height_m, heading_m: posed.heading_m(), sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later, `away_m`
-    /// the shift to which a swinging foot moves because the other leg stands in its path.
+    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later,
+    /// `away_m` the shift to which a swinging foot moves because the other leg stands in its path.
     pub(crate) fn step(
         &mut self,
         posed: &PosedFoot,

@@ -1,8 +1,8 @@
 //! Leg clearance: a swinging foot passes beside the leg that stands, also where that leg does not stand as in the pose.
 //!
-//! Shanks do not cross in the examples. But a planted foot stays where it is while the body turns, side-steps or changes
-//! its mind, and the swinging one would pass through it. Where the stance foot is nearer to the path of the swinging foot
-//! than in the pose, that foot moves outward by the difference. A gap that the pose itself has is enough.
+//! Shanks do not cross in the examples. But a planted foot stays where it is while the body turns, side-steps or
+//! changes direction, and the swinging one would pass through it. Where the stance foot is nearer to the path of the
+//! swinging foot than in the pose, that foot moves outward by the difference. A gap that the pose itself has is enough.
 //!
 //! Frame of the drawn body (x forward, y left), metres.
 
@@ -16,8 +16,8 @@ const APART_M: f32 = 0.35;
 /// Greatest displacement, m: a step across ends where the foot can land.
 const AWAY_MAX_M: f32 = 0.15;
 
-/// Displacement of a swinging foot from the pose's, m, given the ankles of swinging and stance foot in the pose, and the
-/// stance ankle as it is locked. `side` is that of the swinging foot.
+/// Displacement of a swinging foot from the pose's, m, given the ankles of swinging and stance foot in the pose, and
+/// the stance ankle as it is locked. `side` is that of the swinging foot.
 pub(crate) fn away_m(side: usize, swing_m: Vec3, stance_m: Vec3, locked_m: Vec3) -> Vec2 {
     let sign = Side::BOTH[side].sign();
     let gap_m = |stance_m: Vec3| sign * (swing_m.y - stance_m.y);

@@ -11,14 +11,12 @@
 //!
 //! Angles are relative to the root's facing, counter-clockwise from above, radians; time in seconds.
 
-use std::f32::consts::PI;
-
-use glam::Quat;
 use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::maths::angle::{unit_vector, wrap_rad, yaw};
 use crate::planning::plan::Plan;
 use crate::synthesis::TimeStep;
+use crate::synthesis::pose::yaw_limit::within_limits_rad;
 
 /// Greatest look-at angle, rad: in turns by 90° and more the head shows some 45° against the trunk, the eyes the rest.
 const ANGLE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
@@ -61,21 +59,6 @@ impl LookAt {
     }
 }
 
-/// The part of a turn that the limits of a joint allow, rad. A pose beyond a limit turns no further.
-pub(crate) fn within_limits_rad(turn_rad: f32, rotation: Quat, [least_rad, greatest_rad]: [f32; 2]) -> f32 {
-    // An arc is at most π/2 times its sine, so |yaw| ≤ π·|z|: usually far from the limits.
-    if PI * rotation.z.abs() + turn_rad.abs() <= greatest_rad.min(-least_rad) {
-        return turn_rad;
-    }
-    let yaw_rad = yaw_rad(rotation);
-    (yaw_rad + turn_rad).clamp(least_rad.min(yaw_rad), greatest_rad.max(yaw_rad)) - yaw_rad
-}
-
-/// The vertical component of a rotation vector, which joint limits refer to, rad.
-fn yaw_rad(rotation: Quat) -> f32 {
-    if rotation.w < 0.0 { -rotation } else { rotation }.to_scaled_axis().z
-}
-
 /// The angle to look at, rad: along the planned facing, and to the side the faster the body is to walk there. A body
 /// that steps back looks along its facing.
 fn target_rad(plan: &Plan, facing_rad: f32) -> f32 {
@@ -87,10 +70,11 @@ fn target_rad(plan: &Plan, facing_rad: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec3};
+    use glam::{Quat, Vec2, Vec3};
     use motiondb::body::JOINT_COUNT;
 
     use super::*;
+    use crate::synthesis::pose::yaw_limit::yaw_rad;
     use crate::test_db::skeleton;
 
     const STANDING: Pose = Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.92), rotations: [Quat::IDENTITY; JOINT_COUNT] };

@@ -2,10 +2,10 @@
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`, `foot_lock`,
-//! all held by `contact_state`; `look_at` turns head and chest, and `lean` tilts the trunk;
-//! `weight_shift` moves the pelvis before a first step, `secondary_motion` head, forearms and hands; `squeeze` turns the
-//! shoulders in narrow gaps.
+//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`,
+//! `foot_lock`, all held by `contact_state`. `look_at` turns head and chest, `squeeze` the shoulders in narrow gaps,
+//! both as far as `yaw_limit` allows. `lean` tilts the trunk; `weight_shift` moves the pelvis before a first step;
+//! `secondary_motion` moves head, forearms and hands.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
@@ -20,6 +20,7 @@ pub(crate) mod posture;
 pub(crate) mod secondary_motion;
 pub(crate) mod squeeze;
 pub(crate) mod weight_shift;
+pub(crate) mod yaw_limit;
 
 pub(crate) use contact_state::{ContactState, FootMotion};
 pub(crate) use foot_lock::FootLock;

@@ -10,9 +10,9 @@
 //!
 //! - *Deformed walk*: the pelvis keeps its height above the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
 //!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by a share of it.
-//! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the
-//!   pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of both
-//!   legs'.
+//! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at
+//!   the pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of
+//!   both legs'.
 //! - *Over time*: the pelvis drops and rises at limited accelerations ([`PelvisDrop`]). A foot that leaves the
 //!   ground far behind needs no drop from one moment to the next.
 //!
@@ -34,8 +34,8 @@ const EXTENSION_MAX: f32 = 0.9985;
 pub(crate) const DROP_MAX_M: f32 = 0.12;
 /// Softness s for locked feet, m: less than the hips bob in walking. At 0.01 m knees snap at stops.
 pub(crate) const SOFTNESS_M: f32 = 0.014;
-/// Greatest upward acceleration that the pelvis has from the end of a drop, m/s². With that of walking, 4 m/s², it stays
-/// well below a lurch.
+/// Greatest upward acceleration that the pelvis has from the end of a drop, m/s². With that of walking, 4 m/s², it
+/// stays well below a lurch.
 const RISE_MPS2: f32 = 8.0;
 /// Greatest downward acceleration from a drop that begins, m/s², as long as the pelvis is at most [`LATE_MAX_M`] late.
 const DROP_MPS2: f32 = 10.0;

@@ -66,8 +66,8 @@ mod tests {
 
     const DT_S: f32 = 1.0 / 60.0;
 
-    /// Pelvis in the root frame and balls of the feet in the world, m, and planted feet of a body that starts after 1 s,
-    /// after each step.
+    /// Pelvis in the root frame and balls of the feet in the world, m, and planted feet of a body that starts after
+    /// 1 s, after each step.
     fn start(velocity_mps: Vec2) -> Vec<(Vec3, [Vec3; 2], [bool; 2])> {
         let context = SynthesisContext::new(Arc::new(test_db()), HmsParams::default());
         let plan = |time_s: f32, _: &Root| Plan {
