@@ -81,6 +81,7 @@ fn main() {
             wall_radii_m: &[WALL_RADIUS_M; AGENTS],
             preferred_mps: &preferred_mps,
             stances: &[Stance::default(); AGENTS],
+            planned_mps: &velocities_mps,
             strafing_s: &plans.iter().map(|plan| plan.strafing_s).collect::<Vec<f32>>(),
             stepping_back_s: &plans.iter().map(|plan| plan.stepping_back_s).collect::<Vec<f32>>(),
             neighbours: &neighbours,

@@ -66,6 +66,8 @@ pub struct Agents {
     pub preferred_mps: Vec<Vec2>,
     /// Plan for the step.
     pub plans: Vec<Plan>,
+    /// Velocity of the last plan, m/s.
+    pub planned_mps: Vec<Vec2>,
     /// Contiguous time of strafing after the last plan, s.
     pub strafing_s: Vec<f32>,
     /// Contiguous time of stepping back after the last plan, s.
@@ -101,6 +103,7 @@ macro_rules! for_each_array {
             route_memory,
             preferred_mps,
             plans,
+            planned_mps,
             strafing_s,
             stepping_back_s,
             speed_factors,
@@ -142,6 +145,7 @@ impl Agents {
         self.route_memory.push(RouteMemory::default());
         self.preferred_mps.push(Vec2::ZERO);
         self.plans.push(Plan::default());
+        self.planned_mps.push(Vec2::ZERO);
         self.strafing_s.push(0.0);
         self.stepping_back_s.push(0.0);
         self.speed_factors.push(stature.speed_factor());
@@ -159,6 +163,7 @@ impl Agents {
         self.are_between_steps[index] = true;
         self.positions_m[index] = self.statures[index].root_of_crowd(body.root).position_m;
         self.velocities_mps[index] = Vec2::ZERO;
+        self.planned_mps[index] = Vec2::ZERO;
         self.bodies[index] = body;
         self.stances[index] = output.stance;
     }

@@ -61,6 +61,7 @@
 //!     wall_radii_m: &[0.2; 2],
 //!     preferred_mps: &velocities_mps,
 //!     stances: &[Stance::default(); 2],
+//!     planned_mps: &velocities_mps,
 //!     strafing_s: &[0.0; 2],
 //!     stepping_back_s: &[0.0; 2],
 //!     neighbours: &neighbours,

@@ -271,6 +271,7 @@ impl Simulation {
             wall_radii_m: &agents.wall_radii_m,
             preferred_mps: &agents.preferred_mps,
             stances: &agents.stances,
+            planned_mps: &agents.planned_mps,
             strafing_s: &agents.strafing_s,
             stepping_back_s: &agents.stepping_back_s,
             neighbours: &self.neighbours,

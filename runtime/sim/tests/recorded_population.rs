@@ -26,6 +26,9 @@ fn wide_header() -> Header {
     let character = |name: &str, checksum| RecordedCharacter { name: name.to_owned(), checksum };
     header.characters = vec![character("Zoë", 1), character("b", 2)];
     header.states.push("look_around".to_owned());
+    // The defaults of the program that wrote the golden file.
+    let planner = &mut header.scenario.params.planner;
+    (planner.relaxation_s, planner.response_s, planner.acceleration_max_mps2) = (0.54, 0.3, 1.1);
     header.scenario.sources.push(SourceSpec {
         low_m: Vec2::new(-1.0, -1.0),
         high_m: Vec2::new(1.0, 0.1),

@@ -32,6 +32,7 @@ pub(crate) fn synchronize(agents: &mut Agents, contexts: &[SynthesisContext], dt
         agents.velocities_mps[index] = committed_mps.unwrap_or(moved_m / dt_s);
         agents.positions_m[index] = root.position_m;
         agents.facings_rad[index] = root.facing_rad;
+        agents.planned_mps[index] = agents.plans[index].velocity_mps;
         agents.strafing_s[index] = agents.plans[index].strafing_s;
         agents.stepping_back_s[index] = agents.plans[index].stepping_back_s;
     }

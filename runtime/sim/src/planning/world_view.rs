@@ -42,6 +42,7 @@ use crate::world::one_way::OneWayZone;
 ///     wall_radii_m: &[0.2],
 ///     preferred_mps: &[walk_mps],
 ///     stances: &[Stance::default()],
+///     planned_mps: &[walk_mps],
 ///     strafing_s: &[0.0],
 ///     stepping_back_s: &[0.0],
 ///     neighbours: &neighbours,
@@ -74,6 +75,8 @@ pub struct WorldView<'a> {
     pub preferred_mps: &'a [Vec2],
     /// How each body stands.
     pub stances: &'a [Stance],
+    /// [`Plan::velocity_mps`](crate::planning::Plan::velocity_mps) of the last step.
+    pub planned_mps: &'a [Vec2],
     /// [`Plan::strafing_s`](crate::planning::Plan::strafing_s) of the last step.
     pub strafing_s: &'a [f32],
     /// [`Plan::stepping_back_s`](crate::planning::Plan::stepping_back_s) of the last step.
@@ -192,7 +195,7 @@ impl<'a> WorldView<'a> {
         Disc { radius_m: self.wall_radii_m[agent], ..self.disc(agent) }
     }
 
-    /// Time for which a planner applies forces to the present velocity, s.
+    /// Time for which a planner that keeps nothing from its last plan applies forces to the present velocity, s.
     ///
     /// Discs have their planned velocity at the end of the step. Bodies lag by about `response_s`: of what forces add
     /// within a fine step they would take up almost nothing, and a body that stands would never start to step.

@@ -66,6 +66,7 @@ pub struct RecordedStep<'a> {
     facings_rad: Vec<f32>,
     preferred_mps: Vec<Vec2>,
     stances: Vec<Stance>,
+    planned_mps: Vec<Vec2>,
     strafing_s: Vec<f32>,
     stepping_back_s: Vec<f32>,
     neighbours: NeighbourSearch,
@@ -135,6 +136,8 @@ impl<'a> Replay<'a> {
             |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
         let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
         let speed_factor = |agent: &AgentFrame| Stature::new(life(agent).stature).speed_factor();
+        let is_teleported = |agent: &AgentFrame| life(agent).is_teleported(number);
+        let planned_mps = |agent: &AgentFrame| if is_teleported(agent) { Vec2::ZERO } else { agent.planned_mps };
         let closed_zones = |(before, after): (&AgentFrame, &AgentFrame)| {
             let (own, radius_m) = (life(before).spec.closed_zones, life(before).wall_radius_m(number + 1));
             self.state_zones.for_walls(own, usize::from(after.state), before.root.position_m, radius_m)
@@ -149,6 +152,7 @@ impl<'a> Replay<'a> {
             facings_rad: before.iter().map(|agent| agent.root.facing_rad).collect(),
             preferred_mps: after.iter().map(|agent| agent.preferred_mps).collect(),
             stances: before.iter().map(|agent| self.stance(agent, life(agent).stature)).collect(),
+            planned_mps: before.iter().map(planned_mps).collect(),
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
@@ -225,6 +229,7 @@ impl RecordedStep<'_> {
             wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
+            planned_mps: &self.planned_mps,
             strafing_s: &self.strafing_s,
             stepping_back_s: &self.stepping_back_s,
             neighbours: &self.neighbours,

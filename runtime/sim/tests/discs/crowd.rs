@@ -143,6 +143,7 @@ impl DiscCrowd {
         self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, horizon_s);
         let count = self.plans.len();
         let preferred_mps = self.follow_paths(setting);
+        let planned_mps: Vec<Vec2> = self.plans.iter().map(|plan| plan.velocity_mps).collect();
         let strafing_s: Vec<f32> = self.plans.iter().map(|plan| plan.strafing_s).collect();
         let stepping_back_s: Vec<f32> = self.plans.iter().map(|plan| plan.stepping_back_s).collect();
         let world = WorldView {
@@ -153,6 +154,7 @@ impl DiscCrowd {
             wall_radii_m: &self.radii_m,
             preferred_mps: &preferred_mps,
             stances: &vec![Stance::default(); count],
+            planned_mps: &planned_mps,
             strafing_s: &strafing_s,
             stepping_back_s: &stepping_back_s,
             neighbours: &self.neighbours,

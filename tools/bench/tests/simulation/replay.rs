@@ -107,14 +107,14 @@ fn bodies_of_many_sizes_are_planned_again_alike() {
 #[test]
 fn radii_and_teleports_of_states_are_planned_again_alike() {
     const CHANGES: &str = "
-        duration_s = 12
+        duration_s = 16
         [goals.ends]
         choose = 'farthest'
         areas = [{ circle_m = [-5, 0, 1] }, { circle_m = [5, 0, 1] }]
         [states.walk]
         go = 'ends'
         set = { speed_factor = { uniform = [0.7, 1.2] }, radius_m = { uniform = [0.15, 0.3] } }
-        then = [{ when = { reached_m = 0 }, to = 'jump' }, { when = { after_s = 4 }, to = 'walk' }]
+        then = [{ when = { reached_m = 0 }, to = 'jump' }, { when = { after_s = 6 }, to = 'walk' }]
         [states.jump]
         stand = { facing_deg = 90 }
         set = { teleport = { rect_m = [-3, 3, 3, 6] } }

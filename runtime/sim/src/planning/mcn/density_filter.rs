@@ -55,12 +55,12 @@ pub(crate) struct Filtered {
 }
 
 /// Scales v_op down to what the density ahead allows, on the arc around it, for an agent that walks at `own_mps` and
-/// takes up a plan within `lead_s`.
+/// plans for a step of `dt_s`.
 pub(crate) fn filter(
     velocity_mps: Vec2,
     own_mps: Vec2,
     neighbours: &NeighbourLanes,
-    lead_s: f32,
+    dt_s: f32,
     params: &McnParams,
 ) -> Filtered {
     let speed_mps = velocity_mps.length();
@@ -76,7 +76,7 @@ pub(crate) fn filter(
         |direction: Vec2| speed_limit_mps(weighted_density(&shares(direction, neighbours), &weights), params);
     let (direction, allowed_mps) = on_the_arc(ahead, ahead_mps, speed_mps, limit_mps);
     // A limit is taken up like v_pref (Eq. 9), not at once: the density flickers as neighbours come and go.
-    let left = 1.0 - (lead_s / params.relaxation_s).min(1.0);
+    let left = 1.0 - (dt_s / params.relaxation_s).min(1.0);
     let eased_mps = allowed_mps + left * (own_mps.length() - allowed_mps).max(0.0);
     Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
 }
@@ -152,7 +152,8 @@ mod tests {
     use crate::measures::pedestrian_studies::measured_section::weidmann_mps;
     use crate::world::neighbours::NEIGHBOUR_COUNT;
 
-    const LEAD_S: f32 = 0.3;
+    /// The greatest time step, s.
+    const DT_S: f32 = 0.25;
 
     /// Neighbours at these offsets, at the agent's own velocity.
     fn at(offsets_m: &[Vec2]) -> NeighbourLanes {
@@ -183,7 +184,7 @@ mod tests {
     /// The filter of an agent that walks at 1.3 m/s along +x among others of one velocity.
     fn filtered(offsets_m: &[Vec2], others_mps: Vec2) -> Filtered {
         let own_mps = 1.3 * Vec2::X;
-        filter(own_mps, own_mps, &moving(offsets_m, own_mps - others_mps), LEAD_S, &McnParams::default())
+        filter(own_mps, own_mps, &moving(offsets_m, own_mps - others_mps), DT_S, &McnParams::default())
     }
 
     /// As near as RiMEA test 4 requires, at densities at which the filter slows agents: below 1.5/m² avoidance does.
@@ -199,11 +200,11 @@ mod tests {
     #[test]
     fn free_path_keeps_speed_jam_does_not_stall() {
         let params = McnParams::default();
-        let free = filter(Vec2::new(1.3, 0.2), Vec2::ZERO, &at(&[Vec2::new(-2.0, 0.0)]), LEAD_S, &params);
+        let free = filter(Vec2::new(1.3, 0.2), Vec2::ZERO, &at(&[Vec2::new(-2.0, 0.0)]), DT_S, &params);
         assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));
-        let jam = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &at(&staggered(8.0)), LEAD_S, &params);
+        let jam = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &at(&staggered(8.0)), DT_S, &params);
         assert!(jam.velocity_mps.length() > 0.8 * params.density_speed_min_mps && jam.velocity_mps.length() < 0.5);
-        assert_eq!(filter(Vec2::ZERO, Vec2::ZERO, &at(&staggered(8.0)), LEAD_S, &params).velocity_mps, Vec2::ZERO);
+        assert_eq!(filter(Vec2::ZERO, Vec2::ZERO, &at(&staggered(8.0)), DT_S, &params).velocity_mps, Vec2::ZERO);
     }
 
     #[test]
@@ -218,7 +219,7 @@ mod tests {
     #[test]
     fn leans_to_the_emptier_side() {
         let crowd_on_the_left: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.6 + 0.2 * index as f32, 0.5)).collect();
-        let filtered = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &at(&crowd_on_the_left), LEAD_S, &McnParams::default());
+        let filtered = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &at(&crowd_on_the_left), DT_S, &McnParams::default());
         assert!(filtered.velocity_mps.y < -0.02 && filtered.velocity_mps.x > 0.2, "{filtered:?}");
     }
 }

@@ -76,8 +76,8 @@ pub struct McnParams {
     pub interaction_horizon_s: f32,
     /// τ_0 of Eq. 9: time in which the preferred velocity is taken up, s.
     pub relaxation_s: f32,
-    /// Time for which Eq. 9 acts on the velocity of a body, s; never less than a step. A body needs it to respond: with
-    /// less, Eq. 9's relaxation and the body's lag would both slow it. Discs do not lag; theirs is the step.
+    /// Lag of a body behind its plans, s. Eq. 9 begins at the last plan, which is ahead of the body's velocity by no more
+    /// than the greatest acceleration adds in this time.
     pub response_s: f32,
     /// Greatest acceleration of Eq. 9, m/s².
     pub acceleration_max_mps2: f32,
@@ -107,13 +107,13 @@ impl Default for McnParams {
             obstacle_time_horizon_s: 1.0,
             // The sensing range of Karamouzas, Skinner, Guy 2014.
             neighbour_range_m: 10.0,
-            // Karamouzas, Skinner, Guy 2014: k, τ_0 and the driving force's relaxation.
+            // Karamouzas, Skinner, Guy 2014: k and τ_0.
             interaction_strength: 1.5,
             interaction_horizon_s: 3.0,
-            relaxation_s: 0.54,
+            // With both, a start lasts 1 s, as people's do (docs/tuning.md).
+            relaxation_s: 0.4,
+            acceleration_max_mps2: 2.0,
             response_s: 0.3,
-            // About what unhurried people start and stop with.
-            acceleration_max_mps2: 1.1,
             // Menge's PedVO (Curtis, Best, Manocha 2016); the buffer lies between its two, 0.5 and 0.9.
             density_factor: 1.57,
             density_buffer: 0.84,

@@ -96,6 +96,7 @@ impl Scene {
             wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
+            planned_mps: &self.velocities_mps,
             strafing_s: &self.held_s[0],
             stepping_back_s: &self.held_s[1],
             neighbours: &neighbours,
