@@ -274,8 +274,15 @@ fn a_scenario_takes_its_camera_from_a_gltf_file() {
     };
     let recording = folder.join("scene.fbrec");
     let simulate = |camera: &str| fbcrowd(&["simulate", &scene(camera), "-o", text(&recording)]);
-    simulate("gltf = \"shot.gltf\"\nnode = \"absent\"").expect_code(2).says(&["absent", "dolly, plan"]);
-    simulate("gltf = \"none.glb\"").expect_code(2).says(&["none.glb"]);
+    simulate("gltf = \"shot.gltf\"\nnode = \"absent\"").expect_code(2).says(&[".toml:10", "absent", "dolly, plan"]);
+    // Each mistake is shown at its line and key.
+    simulate("gltf = \"none.glb\"").expect_code(2).says(&[".toml:9", "gltf: ", "none.glb is no file"]);
+    fs::write(folder.join("text.glb"), "no model").unwrap();
+    simulate("gltf = \"text.glb\"").expect_code(2).says(&[".toml:9", "gltf: ", "text.glb"]);
+    fs::write(folder.join("bare.gltf"), r#"{ "asset": { "version": "2.0" }, "nodes": [{}] }"#).unwrap();
+    simulate("fog_m = 50\ngltf = \"bare.gltf\"").expect_code(2).says(&[".toml:10", "gltf: ", "no camera in it"]);
+    fs::create_dir_all(folder.join("folder.glb")).unwrap();
+    simulate("gltf = \"folder.glb\"").expect_code(2).says(&[".toml:9", "gltf: ", "folder.glb"]);
     simulate("gltf = \"shot.gltf\"\nfocal_mm = 35").expect_code(2).says(&["states its lens"]);
     simulate("gltf = \"shot.gltf\"\nnode = \"plan\"").expect_code(0);
     let [own, given] = ["own", "given"].map(|name| folder.join(name));

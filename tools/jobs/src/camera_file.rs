@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario};
+use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario, camera_mistake};
 use glam::Vec3;
 use motiondb_compiler::Outside;
 use motiondb_compiler::read::gltf::{GltfCamera, GltfCameraKey, GltfLens, read_cameras};
@@ -34,24 +34,47 @@ pub fn cameras_of(path: &Path, aspect: f64, outside: Outside) -> Result<Vec<Came
 /// Replaces the cameras of a scenario that name a file by what the file holds. Paths are relative to the scenario's file.
 ///
 /// # Errors
-/// If a file cannot be read, or does not have the camera.
+/// If a file cannot be read, or does not have the camera: shown at the line of the scenario that names it.
 pub fn resolve(scenario: &mut Scenario, file: &Path, outside: Outside) -> Result<(), JobError> {
     let aspect = f64::from(scenario.view.width) / f64::from(scenario.view.height);
-    for camera in scenario.cameras.iter_mut().filter(|camera| camera.gltf.is_some()) {
-        let path = file.parent().unwrap_or(Path::new("")).join(camera.gltf.as_deref().unwrap_or(Path::new("")));
-        let found = cameras_of(&path, aspect, outside)?;
-        let names = found.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>().join(", ");
-        let chosen = match &camera.node {
-            None => found.into_iter().next(),
-            Some(node) => found.iter().find(|found| found.name == *node).cloned(),
-        };
-        let Some(chosen) = chosen else {
-            let name = camera.node.clone().unwrap_or_default();
-            return Err(JobError::NoSuchGltfCamera { path, name, cameras: names });
-        };
-        *camera = CameraSpec { name: camera.name.clone(), fog_m: camera.fog_m, ..chosen };
+    for (index, camera) in scenario.cameras.iter_mut().enumerate() {
+        if let Some(gltf) = &camera.gltf {
+            let path = file.parent().unwrap_or(Path::new("")).join(gltf);
+            let mistake = |message: String, help: &str| JobError::from(camera_mistake(file, index, message, help));
+            let chosen = chosen(&path, camera.node.as_deref(), aspect, outside, mistake)?;
+            *camera = CameraSpec { name: camera.name.clone(), fog_m: camera.fog_m, ..chosen };
+        }
     }
     Ok(())
+}
+
+/// The camera that a node of a file holds; the file's first one where no node is named. `mistake` makes an error of a
+/// message, which begins with a key, and a remedy.
+fn chosen(
+    path: &Path,
+    node: Option<&str>,
+    aspect: f64,
+    outside: Outside,
+    mistake: impl Fn(String, &str) -> JobError,
+) -> Result<CameraSpec, JobError> {
+    if !path.exists() {
+        return Err(mistake(
+            format!("gltf: {} is no file", path.display()),
+            "give a path relative to the scenario file",
+        ));
+    }
+    let found = cameras_of(path, aspect, outside).map_err(|error| {
+        if error.is_of_machine() { error } else { mistake(format!("gltf: {error}"), "or name another file") }
+    })?;
+    let names = found.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>().join(", ");
+    let camera = match node {
+        None => found.into_iter().next(),
+        Some(node) => found.into_iter().find(|found| found.name == node),
+    };
+    camera.ok_or_else(|| {
+        let message = format!("node: there is no camera {:?} in {}", node.unwrap_or_default(), path.display());
+        mistake(message, &format!("set `node` to one of: {names}"))
+    })
 }
 
 /// The files that cameras of a scenario name.

@@ -146,16 +146,6 @@ pub enum JobError {
         /// The file.
         path: PathBuf,
     },
-    /// A file does not have a camera of this name.
-    #[error("{}: there is no camera {name:?} in it; set `node` to one of: {cameras}", path.display())]
-    NoSuchGltfCamera {
-        /// The file.
-        path: PathBuf,
-        /// The requested name.
-        name: String,
-        /// The cameras of the file.
-        cameras: String,
-    },
     /// A video's file has no extension of a container.
     #[error("{}: its extension names no kind of video; use .mp4, .mov or .mkv", path.display())]
     NoContainer {

@@ -9,6 +9,7 @@ use crate::camera::colour_by::dressed;
 use crate::camera::worn::{Wardrobe, Wearer};
 use crate::figure::{Figures, Wanted};
 use crate::raster::palette::{Rgb, decode_srgb};
+use crate::visibility::lens::NEAR_M;
 use crate::visibility::{Lens, SceneParts};
 
 /// Middle of a body above the ground, and its reach from there, m.
@@ -50,13 +51,18 @@ impl Dresser<'_> {
                 for ((agent, posed), shown) in agents.iter().zip(posed).zip(shown) {
                     if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
                         let stature = self.stature(agent);
+                        let first = parts.meshes.triangles.len();
                         self.append_sized(&mut parts, posed, stature, stature * height_px(lens, agent), *shown);
+                        if is_near_eye(lens, agent, stature) {
+                            parts.meshes.open(first);
+                        }
                     }
                 }
                 parts
             })
             .collect();
         let mut scene = SceneParts::default();
+        scene.meshes.reserve(chunks.iter().map(|parts| &parts.meshes));
         for parts in chunks {
             scene.cones.extend(parts.cones);
             scene.occluders.extend(parts.occluders);
@@ -123,6 +129,11 @@ fn middle_m(agent: &AgentFrame) -> Vec3 {
 fn height_px(lens: &Lens, agent: &AgentFrame) -> f32 {
     let depth_m = lens.to_camera(middle_m(agent)).z;
     HEIGHT_M / lens.pixel_m(depth_m.max(0.3))
+}
+
+/// Whether the near plane may cut a body: its inside is seen then.
+fn is_near_eye(lens: &Lens, agent: &AgentFrame, stature: f32) -> bool {
+    lens.to_camera(middle_m(agent)).z < NEAR_M + BODY_M[1] * stature.max(1.0)
 }
 
 /// Whether a body, or its shadow, can touch the picture.

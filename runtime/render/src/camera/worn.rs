@@ -5,10 +5,10 @@ use std::sync::Arc;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::character::{Character, CharacterFit, CharacterMesh, CharacterTexture, Dye, JointTransform, Material};
+use motiondb::character::{Character, CharacterFit, CharacterTexture, Dye, JointTransform, Material};
 use rayon::prelude::*;
 
-use crate::detail::Levels;
+use crate::detail::{Level, Levels};
 use crate::visibility::{Cone, Owner, Paint, SceneParts, Texture};
 
 /// Material of characters.
@@ -23,7 +23,7 @@ pub(crate) struct Wardrobe<'a> {
     header: &'a Header,
     fits: Vec<CharacterFit<'a>>,
     /// Of each character.
-    levels: Vec<Levels<'a>>,
+    levels: Vec<Levels>,
     textures: Textures,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Wardrobe<'a> {
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
         let worn = Worn {
             fit,
-            mesh: self.levels[character as usize].of_pixel(pixel_m),
+            level: self.levels[character as usize].of_pixel(pixel_m),
             first_texture: self.textures.firsts[character as usize],
             dye: Dye { hue_turn: self.header.scenario.hue_turn_of(agent.id.0, character), shown },
             owner: Owner { agent: agent.id.0, material: CHARACTER },
@@ -106,7 +106,7 @@ impl Textures {
 pub(crate) struct Worn<'a> {
     pub(crate) fit: &'a CharacterFit<'a>,
     /// The character's mesh, or a reduced one.
-    pub(crate) mesh: &'a CharacterMesh,
+    pub(crate) level: &'a Level,
     /// Index of the character's first texture in the scene.
     pub(crate) first_texture: u32,
     pub(crate) dye: Dye,
@@ -117,10 +117,11 @@ impl Worn<'_> {
     /// Appends the mesh and the capsules of a posed character.
     pub(crate) fn append(&self, parts: &mut SceneParts, transforms: &[JointTransform]) {
         let (mut positions_m, mut normals, mut colours) = (Vec::new(), Vec::new(), Vec::new());
-        let mesh = self.mesh;
+        let Level { mesh, closed } = self.level;
         mesh.skin(transforms, &mut positions_m, &mut normals);
         mesh.dyed(&self.dye, &mut colours);
         parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, self.owner);
+        parts.meshes.close(closed);
         if !mesh.uvs.is_empty() {
             let paint = |material: &Material| {
                 let texture = self.first_texture + material.texture?;

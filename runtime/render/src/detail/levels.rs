@@ -6,7 +6,8 @@ use motiondb::character::{CharacterFit, CharacterMesh, Material};
 
 use crate::detail::example_poses::{POSES, posed_m};
 use crate::detail::reduction::Reduction;
-use crate::detail::surface::Surface;
+use crate::detail::surface::{Points, Surface};
+use crate::visibility::closed_triangles;
 
 /// Error of the finest level, at the crowd's size, m.
 const FINEST_M: f32 = 0.001;
@@ -15,29 +16,51 @@ const STEP: f32 = std::f32::consts::SQRT_2;
 /// Number of levels: the coarsest has an error of 9 cm.
 const LEVELS: usize = 14;
 /// Greatest share of triangles that a level has of the next finer one; levels with more are left out.
-const SHARE_MAX: f32 = 0.8;
+const SHARE_MAX: f32 = 0.95;
 /// Error that is not seen, pixels. At .3, thin hair let the head shine through (docs/tuning.md).
 const UNSEEN_PX: f32 = 0.2;
 
-/// A character's own mesh and reduced ones.
+/// A mesh of a character.
 #[derive(Clone, Debug)]
-pub(crate) struct Levels<'a> {
-    own: &'a CharacterMesh,
-    /// Reduced meshes by rising error, m.
-    reduced: Vec<(f32, CharacterMesh)>,
+pub(crate) struct Level {
+    pub(crate) mesh: CharacterMesh,
+    /// Whether each triangle is one of a closed surface.
+    pub(crate) closed: Vec<bool>,
 }
 
-impl<'a> Levels<'a> {
+/// A character's own mesh and reduced ones.
+#[derive(Clone, Debug)]
+pub(crate) struct Levels {
+    own: Level,
+    /// Reduced meshes by rising error, m.
+    reduced: Vec<(f32, Level)>,
+}
+
+impl Level {
+    /// A mesh whose normals, triangles and weights fit its vertices.
+    pub(crate) fn new(mesh: CharacterMesh) -> Self {
+        let points = Points::new(&mesh);
+        let triangles: Vec<_> = mesh.triangles.iter().map(|corners| points.of_corners(*corners)).collect();
+        let closed = closed_triangles(&triangles, points.count(), |point| mesh.positions_m[points.vertex(point)]);
+        Self { mesh, closed }
+    }
+}
+
+impl Levels {
     /// The levels of a character on a skeleton.
-    pub(crate) fn new(fit: &CharacterFit<'a>, skeleton: &Skeleton) -> Self {
+    pub(crate) fn new(fit: &CharacterFit, skeleton: &Skeleton) -> Self {
         let own = &fit.character.mesh;
-        Self { own, reduced: reduced(own, &posed_m(fit, skeleton)) }
+        let reduced = reduced(own, &posed_m(fit, skeleton));
+        Self {
+            own: Level::new(own.clone()),
+            reduced: reduced.into_iter().map(|(error_m, mesh)| (error_m, Level::new(mesh))).collect(),
+        }
     }
 
     /// The coarsest mesh whose errors are not seen where a pixel is so wide on the body, m.
-    pub(crate) fn of_pixel(&self, pixel_m: f32) -> &CharacterMesh {
+    pub(crate) fn of_pixel(&self, pixel_m: f32) -> &Level {
         let fine = self.reduced.iter().take_while(|(error_m, _)| *error_m <= UNSEEN_PX * pixel_m);
-        fine.last().map_or(self.own, |(_, mesh)| mesh)
+        fine.last().map_or(&self.own, |(_, level)| level)
     }
 }
 

@@ -10,7 +10,7 @@
 //! surfaces over the mesh (Hoppe 1999), and vertices move neither off borders nor over seams.
 //!
 //! Read `quadric` (the error), `example_poses`, `surface` (points, wedges and triangles of a mesh), `reduction` (collapses),
-//! and `levels`.
+//! and `levels`, which also find the closed surfaces of each mesh.
 
 mod example_poses;
 mod levels;
@@ -18,4 +18,4 @@ mod quadric;
 mod reduction;
 mod surface;
 
-pub(crate) use levels::Levels;
+pub(crate) use levels::{Level, Levels};

@@ -8,6 +8,39 @@ use motiondb::character::CharacterMesh;
 
 use crate::detail::example_poses::POSES;
 
+/// The points of a mesh.
+pub(super) struct Points {
+    /// Point of each vertex.
+    of_vertices: Vec<u32>,
+    /// A vertex of each point.
+    vertices: Vec<u32>,
+}
+
+impl Points {
+    pub(super) fn new(mesh: &CharacterMesh) -> Self {
+        let (of_vertices, count) = groups(mesh.positions_m.len(), |vertex| {
+            (bits(mesh.positions_m[vertex].to_array()), mesh.joints[vertex], mesh.weights[vertex].map(f32::to_bits))
+        });
+        let mut vertices = vec![0; count];
+        of_vertices.iter().enumerate().for_each(|(vertex, point)| vertices[*point as usize] = vertex as u32);
+        Self { of_vertices, vertices }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// A vertex of a point.
+    pub(super) fn vertex(&self, point: usize) -> usize {
+        self.vertices[point] as usize
+    }
+
+    /// Points of three vertices.
+    pub(super) fn of_corners(&self, corners: [u32; 3]) -> [u32; 3] {
+        corners.map(|corner| self.of_vertices[corner as usize])
+    }
+}
+
 /// Points, wedges and triangles of a mesh.
 pub(super) struct Surface {
     /// Point of each vertex.
@@ -42,9 +75,8 @@ impl Surface {
     /// The surface of a mesh with its vertices' positions in some poses.
     pub(super) fn new(mesh: &CharacterMesh, posed_m: &[Vec<Vec3>; POSES]) -> Self {
         let count = mesh.positions_m.len();
-        let (points, point_count) = groups(count, |vertex| {
-            (bits(mesh.positions_m[vertex].to_array()), mesh.joints[vertex], mesh.weights[vertex].map(f32::to_bits))
-        });
+        let all = Points::new(mesh);
+        let (point_count, points) = (all.count(), all.of_vertices);
         let mut material_of = vec![u32::MAX; count];
         let mut materials = Vec::with_capacity(mesh.triangles.len());
         for (material, (_, run)) in mesh.runs().enumerate() {

@@ -6,9 +6,10 @@
 //!
 //! World: metres, z up. Camera space: x right, y down, z forward, metres; depth is z.
 //!
-//! Read `lens`, then `scene_parts` (what is drawn) with `part` and `texture`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
+//! Read `lens`, then `scene_parts` (what is drawn) with `part`, `texture` and `closed_surface`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
 //! `screen_bounds`, `tile_samples` (one tile), and `tiles` (all of them, in parallel).
 
+pub(crate) mod closed_surface;
 pub(crate) mod lens;
 pub(crate) mod part;
 pub(crate) mod rounded_cone;
@@ -20,6 +21,7 @@ pub(crate) mod tile_samples;
 pub(crate) mod tiles;
 pub(crate) mod triangle;
 
+pub(crate) use closed_surface::closed_triangles;
 pub use lens::Lens;
 pub use part::PartId;
 pub use sample_pattern::SamplePattern;

@@ -48,6 +48,17 @@ impl SamplePattern {
     }
 }
 
+/// Positions of the samples of the pattern with `N` of them, known when the program is compiled.
+pub(crate) struct SampleOffsets<const N: usize>;
+
+impl<const N: usize> SampleOffsets<N> {
+    /// As [`SamplePattern::offsets`].
+    pub(crate) const UNITS: [[i32; 2]; N] = match SamplePattern::of(N) {
+        Some(pattern) => *pattern.offsets().first_chunk().expect("a pattern of N samples has N offsets"),
+        None => panic!("there is no such pattern"),
+    };
+}
+
 /// A (0, 2)-sequence: column `i`, row the bits of `i` reversed.
 const SIXTEEN: [[i32; 2]; 16] = {
     let mut offsets = [[0; 2]; 16];

@@ -69,6 +69,8 @@ pub struct Meshes {
     pub paints: Vec<Paint>,
     /// Index of each triangle's paint plus 1; 0 of one without texture, as of those beyond the list's end.
     pub paint_numbers: Vec<u32>,
+    /// Whether each triangle is one of a closed surface, whose backs are never seen; those beyond the list's end are none.
+    pub closed: Vec<bool>,
 }
 
 /// All cones and triangles of a frame.
@@ -165,10 +167,39 @@ impl Meshes {
         self.paint_numbers.extend(numbers);
     }
 
+    /// States of the last triangles whether each is one of a closed surface.
+    pub(crate) fn close(&mut self, closed: &[bool]) {
+        self.closed.resize(self.triangles.len().saturating_sub(closed.len()), false);
+        self.closed.extend_from_slice(closed);
+    }
+
+    /// Shows the backs of all triangles from one on.
+    pub(crate) fn open(&mut self, first_triangle: usize) {
+        self.closed.truncate(first_triangle);
+    }
+
+    /// Whether the back of a triangle is never seen.
+    pub(crate) fn hides_back(&self, triangle: usize) -> bool {
+        self.closed.get(triangle).copied().unwrap_or(false)
+    }
+
     /// The texture on a triangle.
     pub(crate) fn paint(&self, triangle: usize) -> Option<&Paint> {
         let number = self.paint_numbers.get(triangle).copied().unwrap_or(0);
         self.paints.get((number as usize).wrapping_sub(1))
+    }
+
+    /// Makes room for other meshes.
+    pub(crate) fn reserve<'a>(&mut self, others: impl Iterator<Item = &'a Self>) {
+        let sum = |[vertices, triangles]: [usize; 2], other: &Self| {
+            [vertices + other.positions_m.len(), triangles + other.triangles.len()]
+        };
+        let [vertices, triangles] = others.fold([0; 2], sum);
+        for list in [&mut self.positions_m, &mut self.normals, &mut self.colours] {
+            list.reserve(vertices);
+        }
+        self.triangles.reserve(triangles);
+        self.owners.reserve(triangles);
     }
 
     /// Appends all triangles of other meshes.
@@ -182,6 +213,10 @@ impl Meshes {
             let moved = other.paint_numbers.iter().map(|number| if *number > 0 { number + before } else { 0 });
             self.paint_numbers.extend(moved);
             self.paints.extend_from_slice(&other.paints);
+        }
+        if !other.closed.is_empty() {
+            self.closed.resize(self.triangles.len(), false);
+            self.closed.extend_from_slice(&other.closed);
         }
         self.positions_m.extend_from_slice(&other.positions_m);
         self.normals.extend_from_slice(&other.normals);

@@ -8,11 +8,11 @@ use glam::Vec2;
 use crate::visibility::lens::{Lens, NEAR_M};
 use crate::visibility::rounded_cone::PreparedCone;
 
-/// Least and greatest corner in pixels, outside none of the picture; none where nothing is visible.
-pub(crate) type PixelBounds = Option<[[u32; 2]; 2]>;
+/// First and last pixel (inclusive), each as column and row, within the picture.
+pub(crate) type PixelBounds = [[u32; 2]; 2];
 
 /// First and last pixel (inclusive) of columns and rows that a cone can touch.
-pub(crate) fn cone_bounds(cone: &PreparedCone, lens: &Lens) -> PixelBounds {
+pub(crate) fn cone_bounds(cone: &PreparedCone, lens: &Lens) -> Option<PixelBounds> {
     let (from, to) = (cone.from, cone.from + cone.axis);
     let [first, second] = cone.radii;
     if (from.z + first).max(to.z + second) <= NEAR_M {
@@ -52,7 +52,7 @@ fn is_beside(cone: &PreparedCone, lens: &Lens) -> bool {
 }
 
 /// The pixels between two corners in (u, v), with a hundredth of a pixel to spare.
-fn clip(low: Vec2, high: Vec2, lens: &Lens) -> PixelBounds {
+fn clip(low: Vec2, high: Vec2, lens: &Lens) -> Option<PixelBounds> {
     let to_px = |corner: Vec2| corner / lens.pixel + 0.5 * lens.size();
     let (low, high) = (to_px(low) - 0.01, to_px(high) + 0.01);
     if low.cmpge(lens.size()).any() || high.cmplt(Vec2::ZERO).any() || !low.is_finite() || !high.is_finite() {

@@ -5,8 +5,8 @@ use glam::{Vec2, Vec3};
 use crate::visibility::lens::{GroundDepth, Lens};
 use crate::visibility::part::PartId;
 use crate::visibility::rounded_cone::PreparedCone;
-use crate::visibility::sample_pattern::{SamplePattern, UNITS};
-use crate::visibility::triangle::ScreenTriangle;
+use crate::visibility::sample_pattern::{SampleOffsets, SamplePattern, UNITS};
+use crate::visibility::triangle::{EdgeValue, ScreenTriangle};
 
 /// What one part contributes to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,14 @@ pub struct TileSamples<'a> {
     pub depths_m: Vec<f32>,
     /// Part of each sample, pixel by pixel.
     pub parts: Vec<PartId>,
+}
+
+/// Adds a step to each edge function at all samples.
+#[inline]
+fn advance<T: EdgeValue, const N: usize>(values: &mut [[T; N]; 3], steps: [T; 3]) {
+    for (values, step) in values.iter_mut().zip(steps) {
+        values.iter_mut().for_each(|value| *value = *value + step);
+    }
 }
 
 impl<'a> TileSamples<'a> {
@@ -137,36 +145,55 @@ impl<'a> TileSamples<'a> {
         is_solid: impl Fn(Vec2, f32, usize) -> bool,
     ) {
         self.has_parts = true;
+        match (self.pattern, triangle.is_small()) {
+            (SamplePattern::One, true) => self.draw_triangle_in::<i32, 1>(triangle, part, bounds, is_solid),
+            (SamplePattern::One, false) => self.draw_triangle_in::<i64, 1>(triangle, part, bounds, is_solid),
+            (SamplePattern::Four, true) => self.draw_triangle_in::<i32, 4>(triangle, part, bounds, is_solid),
+            (SamplePattern::Four, false) => self.draw_triangle_in::<i64, 4>(triangle, part, bounds, is_solid),
+            (SamplePattern::Sixteen, true) => self.draw_triangle_in::<i32, 16>(triangle, part, bounds, is_solid),
+            (SamplePattern::Sixteen, false) => self.draw_triangle_in::<i64, 16>(triangle, part, bounds, is_solid),
+        }
+    }
+
+    /// As [`Self::draw_triangle`], with edge functions in `T`, at all `N` samples of a pixel together.
+    fn draw_triangle_in<T: EdgeValue, const N: usize>(
+        &mut self,
+        triangle: &ScreenTriangle,
+        part: PartId,
+        bounds: [[u32; 2]; 2],
+        is_solid: impl Fn(Vec2, f32, usize) -> bool,
+    ) {
         let [columns, rows] = self.window(bounds);
-        let (count, width) = (self.pattern.count(), self.size_px[0]);
-        let edges = triangle.edges();
-        let (offsets, pixel) = (self.pattern.offsets(), self.lens.pixel);
+        let width = self.size_px[0];
+        let offsets = SampleOffsets::<N>::UNITS;
+        let pixel = self.lens.pixel;
         let first_uv = self.lens.to_uv(Vec2::new(self.corner_px[0] as f32, self.corner_px[1] as f32));
-        let steps = edges.map(|edge| edge.step(UNITS));
-        let first_x = (self.corner_px[0] + columns.start) as i32 * UNITS;
-        let first_y = (self.corner_px[1] + rows.start) as i32 * UNITS;
-        let mut of_row = edges.map(|edge| edge.at([first_x, first_y]));
-        let row_steps = edges.map(|edge| edge.step_down(UNITS));
+        let share = |offset: i32| offset as f32 / UNITS as f32;
+        let edges = triangle.edges();
+        let first = [self.corner_px[0] + columns.start, self.corner_px[1] + rows.start].map(|px| px as i32 * UNITS);
+        let mut of_row: [[T; N]; 3] = edges.map(|edge| offsets.map(|[x, y]| edge.at([first[0] + x, first[1] + y])));
+        let steps: [[T; 3]; 2] = [[UNITS, 0], [0, UNITS]].map(|units| edges.map(|edge| edge.step(units)));
         for row in rows {
-            for (sample, offset) in offsets.iter().enumerate() {
-                let mut values = [0, 1, 2].map(|index: usize| {
-                    of_row[index] + edges[index].step(offset[0]) + edges[index].step_down(offset[1])
+            let mut values = of_row;
+            for column in columns.clone() {
+                // No value is negative.
+                let is_inside: [bool; N] = std::array::from_fn(|sample| {
+                    values[0][sample] | values[1][sample] | values[2][sample] >= T::from(0)
                 });
-                let v = first_uv.y + (row as f32 + offset[1] as f32 / UNITS as f32) * pixel;
-                for column in columns.clone() {
-                    // No value is negative.
-                    if values[0] | values[1] | values[2] >= 0 {
-                        let u = first_uv.x + (column as f32 + offset[0] as f32 / UNITS as f32) * pixel;
-                        let at = (row * width + column) as usize * count + sample;
-                        let depth_m = triangle.depth_m(Vec2::new(u, v));
-                        if is_solid(Vec2::new(u, v), depth_m, sample) {
-                            self.put(at, depth_m, part);
+                if is_inside.contains(&true) {
+                    let first_sample = (row * width + column) as usize * N;
+                    for sample in (0..N).filter(|sample| is_inside[*sample]) {
+                        let [x, y] = offsets[sample].map(share);
+                        let uv = first_uv + Vec2::new(column as f32 + x, row as f32 + y) * pixel;
+                        let depth_m = triangle.depth_m(uv, self.lens.is_perspective);
+                        if is_solid(uv, depth_m, sample) {
+                            self.put(first_sample + sample, depth_m, part);
                         }
                     }
-                    values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }
+                advance(&mut values, steps[0]);
             }
-            of_row = [of_row[0] + row_steps[0], of_row[1] + row_steps[1], of_row[2] + row_steps[2]];
+            advance(&mut of_row, steps[1]);
         }
     }
 

@@ -12,20 +12,20 @@ use crate::visibility::part::PartId;
 use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::SamplePattern;
 use crate::visibility::scene_parts::SceneParts;
-use crate::visibility::screen_bounds::cone_bounds;
+use crate::visibility::screen_bounds::{PixelBounds, cone_bounds};
 use crate::visibility::tile_samples::TileSamples;
-use crate::visibility::triangle::{ScreenTriangle, append_visible, weights};
+use crate::visibility::triangle::{Projection, ScreenTriangle, screen_position, weights};
 
 /// Side of a tile, pixels: its samples fit the first cache.
 pub(crate) const TILE_PX: u32 = 32;
 /// Number of triangles that are projected at once.
 const TRIANGLES_AT_ONCE: usize = 4096;
 
-/// A cone or triangle, and the pixels that it can touch.
-struct Visible<T> {
-    shape: T,
+/// A cone, and the pixels that it can touch.
+struct VisibleCone {
+    shape: PreparedCone,
     part: PartId,
-    bounds: [[u32; 2]; 2],
+    bounds: PixelBounds,
 }
 
 /// The parts that can touch each tile, in their order.
@@ -51,8 +51,8 @@ pub(crate) fn for_each_tile<T: Send>(
 /// The parts of a scene that a lens sees, by tiles.
 pub(crate) struct PreparedTiles<'a> {
     scene: &'a SceneParts,
-    cones: Vec<Visible<PreparedCone>>,
-    triangles: Vec<Visible<ScreenTriangle>>,
+    cones: Vec<VisibleCone>,
+    triangles: Vec<ScreenTriangle>,
     cone_lists: TileLists,
     triangle_lists: TileLists,
     /// Number of tiles along width and height.
@@ -63,7 +63,8 @@ impl<'a> PreparedTiles<'a> {
     pub(crate) fn new(scene: &'a SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
         let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens, pattern));
         let sides = lens.size_px.map(|side| side.div_ceil(TILE_PX));
-        let (cone_lists, triangle_lists) = (TileLists::new(sides, &cones), TileLists::new(sides, &triangles));
+        let cone_lists = TileLists::new(sides, &cones, |cone| cone.bounds);
+        let triangle_lists = TileLists::new(sides, &triangles, |triangle| triangle.bounds(lens.size_px));
         Self { scene, cones, triangles, cone_lists, triangle_lists, sides }
     }
 
@@ -101,12 +102,13 @@ fn draw_triangle(
     scene: &SceneParts,
     lens: &Lens,
     pattern: SamplePattern,
-    triangle: &Visible<ScreenTriangle>,
+    triangle: &ScreenTriangle,
 ) {
-    let (shape, index) = (&triangle.shape, triangle.shape.index as usize);
+    let (bounds, index) = (triangle.bounds(lens.size_px), triangle.index as usize);
+    let part = PartId(scene.cones.len() as u32 + triangle.index);
     match scene.meshes.paint(index).map_or(CutOut::Opaque, |paint| paint.cut_out) {
-        CutOut::Opaque => samples.draw_triangle(shape, triangle.part, triangle.bounds, |_, _, _| true),
-        cut_out => samples.draw_triangle(shape, triangle.part, triangle.bounds, |uv, depth_m, sample| {
+        CutOut::Opaque => samples.draw_triangle(triangle, part, bounds, |_, _, _| true),
+        cut_out => samples.draw_triangle(triangle, part, bounds, |uv, depth_m, sample| {
             let threshold = threshold(cut_out, sample, pattern.count());
             alpha(scene, lens, index, lens.at_depth(uv, depth_m)) >= threshold
         }),
@@ -132,43 +134,43 @@ fn threshold(cut_out: CutOut, sample: usize, count: usize) -> f32 {
     }
 }
 
-fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<Visible<PreparedCone>> {
+fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<VisibleCone> {
     let prepare = |(index, cone)| {
         let shape = PreparedCone::new(cone, lens);
         let bounds = cone_bounds(&shape, lens)?;
-        Some(Visible { shape, part: PartId(index as u32), bounds })
+        Some(VisibleCone { shape, part: PartId(index as u32), bounds })
     };
     scene.cones.par_iter().enumerate().filter_map(prepare).collect()
 }
 
-fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Vec<Visible<ScreenTriangle>> {
+fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Vec<ScreenTriangle> {
     let meshes = &scene.meshes;
-    let vertices: Vec<_> = meshes.positions_m.par_iter().map(|position_m| lens.to_camera(*position_m)).collect();
+    let positions: Vec<[i32; 2]> =
+        meshes.positions_m.par_iter().map(|position_m| screen_position(*position_m, lens)).collect();
+    let projection = Projection { lens, pattern };
     let project = |(chunk, triangles): (usize, &[[u32; 3]])| {
-        let mut shapes = Vec::new();
+        let mut visible = Vec::new();
         for (offset, corners) in triangles.iter().enumerate() {
-            let index = (chunk * TRIANGLES_AT_ONCE + offset) as u32;
-            append_visible(&mut shapes, index, corners.map(|corner| vertices[corner as usize]), lens);
+            let index = chunk * TRIANGLES_AT_ONCE + offset;
+            let corners = corners.map(|corner| positions[corner as usize]);
+            let corners_m = || meshes.corners_m(index);
+            projection.append_visible(&mut visible, index as u32, corners, corners_m, meshes.hides_back(index));
         }
-        let to_visible = |shape: ScreenTriangle| {
-            let bounds = shape.bounds(lens.size_px).filter(|_| shape.may_hold_sample(pattern))?;
-            Some(Visible { part: PartId(scene.cones.len() as u32 + shape.index), shape, bounds })
-        };
-        shapes.into_iter().filter_map(to_visible).collect::<Vec<_>>()
+        visible
     };
     let chunks: Vec<_> = meshes.triangles.par_chunks(TRIANGLES_AT_ONCE).enumerate().map(project).collect();
-    chunks.into_iter().flatten().collect()
+    chunks.concat()
 }
 
 impl TileLists {
     /// A counting sort of shapes by tile.
-    fn new<T>(tiles: [u32; 2], shapes: &[Visible<T>]) -> Self {
-        let tiles_of = |bounds: [[u32; 2]; 2]| {
-            let [first, last] = bounds.map(|corner| corner.map(|at| at / TILE_PX));
+    fn new<T>(tiles: [u32; 2], shapes: &[T], bounds: impl Fn(&T) -> PixelBounds) -> Self {
+        let tiles_of = |shape: &T| {
+            let [first, last] = bounds(shape).map(|corner| corner.map(|at| at / TILE_PX));
             (first[1]..=last[1]).flat_map(move |row| (first[0]..=last[0]).map(move |column| row * tiles[0] + column))
         };
         let mut starts = vec![0; (tiles[0] * tiles[1]) as usize + 1];
-        for tile in shapes.iter().flat_map(|shape| tiles_of(shape.bounds)) {
+        for tile in shapes.iter().flat_map(tiles_of) {
             starts[tile as usize + 1] += 1;
         }
         for tile in 1..starts.len() {
@@ -177,7 +179,7 @@ impl TileLists {
         let mut next = starts.clone();
         let mut entries = vec![0; starts[starts.len() - 1] as usize];
         for (index, shape) in shapes.iter().enumerate() {
-            for tile in tiles_of(shape.bounds) {
+            for tile in tiles_of(shape) {
                 entries[next[tile as usize] as usize] = index as u32;
                 next[tile as usize] += 1;
             }
@@ -198,6 +200,7 @@ mod tests {
     use motiondb::character::{CharacterTexture, Dye, Wrap};
 
     use super::*;
+    use crate::visibility::closed_triangles;
     use crate::visibility::scene_parts::{Cone, Owner, Paint};
     use crate::visibility::texture::Texture;
 
@@ -289,6 +292,40 @@ mod tests {
             tile.parts.iter().filter(|part| **part == PartId::SKY).count()
         });
         assert_eq!(tiles.iter().sum::<usize>(), 0);
+    }
+
+    #[test]
+    fn backs_of_closed_surfaces_change_no_picture() {
+        let mut random = SplitMix64::new(6, 2);
+        let mut within = |range: f64| random.within(range) as f32;
+        let mut open = SceneParts::default();
+        for _ in 0..40 {
+            // Corners in an order that faces outwards.
+            let centre_m = Vec3::new(within(4.0), 6.0 + within(3.0), within(2.0));
+            let mut corners_m = [0; 4].map(|_| centre_m + Vec3::new(within(0.8), within(0.8), within(0.8)));
+            let [a, b, c, d] = corners_m;
+            if (b - a).cross(c - a).dot(d - a) < 0.0 {
+                corners_m.swap(0, 1);
+            }
+            let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+            open.meshes.append(&corners_m, &[Vec3::Z; 4], &[Vec3::ONE; 4], &triangles, Owner::SCENE);
+        }
+        let meshes = &open.meshes;
+        let mut closed = open.clone();
+        closed
+            .meshes
+            .close(&closed_triangles(&meshes.triangles, meshes.positions_m.len(), |at| meshes.positions_m[at]));
+        assert!(closed.meshes.closed.iter().all(|is_closed| *is_closed));
+        for lens in &lenses() {
+            let depths_m = |scene: &SceneParts| {
+                for_each_tile(scene, lens, SamplePattern::Four, None, |tile| tile.depths_m.clone()).concat()
+            };
+            let [of_open, of_closed] = [&open, &closed].map(depths_m);
+            assert!(of_open.iter().filter(|depth_m| depth_m.is_finite()).count() > 1_000);
+            for (of_open, of_closed) in of_open.into_iter().zip(of_closed) {
+                assert!(of_open == of_closed || (of_open - of_closed).abs() < 0.02, "{of_open} {of_closed}");
+            }
+        }
     }
 
     #[test]

@@ -3,14 +3,20 @@
 //!
 //! Positions are in units of 1/256 pixel. In perspective 1/depth, in orthographic projection depth, is linear in (u, v).
 
+use std::ops::{Add, BitOr, Mul};
+
 use glam::{Vec2, Vec3};
 
 use crate::visibility::lens::{Lens, NEAR_M};
 use crate::visibility::sample_pattern::{SamplePattern, UNITS};
+use crate::visibility::screen_bounds::PixelBounds;
 
 /// Edges of the picture's frustum are widened by this factor before triangles are cut: then few are, and coordinates
 /// stay small.
 const GUARD: f32 = 8.0;
+/// Greatest side of the box around a triangle whose edge functions fit `i32`, units: 62 pixels. With the pixels that it
+/// touches the box has less than 2¹⁴, so that both products are less than 2²⁸.
+const SMALL_UNITS: i32 = 62 * UNITS;
 /// Greatest number of corners of a clipped triangle: one more for each plane.
 const CORNERS_MAX: usize = 8;
 
@@ -23,41 +29,135 @@ pub(crate) struct ScreenTriangle {
     corners: [[i32; 2]; 3],
     /// 1/depth or depth as a·u + b·v + c.
     depth: Vec3,
-    is_perspective: bool,
 }
 
-/// Edge functions of a triangle along one tile: value at a sample, and change per unit.
+/// Edge function of a triangle: not negative inside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     origin: [i32; 2],
-    step: [i64; 2],
+    /// Change per unit along x and y.
+    step: [i32; 2],
 }
 
-/// Appends a triangle's visible parts, in camera space.
-pub(crate) fn append_visible(out: &mut Vec<ScreenTriangle>, index: u32, corners_m: [Vec3; 3], lens: &Lens) {
-    let half = 0.5 * lens.size() * lens.pixel * GUARD;
-    let is_in_front = corners_m.iter().all(|corner| corner.z >= NEAR_M);
-    let is_near_picture = |corner: &Vec3| {
-        let depth = if lens.is_perspective { corner.z } else { 1.0 };
-        (corner.truncate().abs() - half * depth).max_element() <= 0.0
-    };
-    if is_in_front && corners_m.iter().all(is_near_picture) {
-        out.extend(ScreenTriangle::new(index, corners_m, corners_m, lens));
-        return;
-    }
-    let mut polygon = Polygon { corners: [Vec3::ZERO; CORNERS_MAX], count: 3 };
-    polygon.corners[..3].copy_from_slice(&corners_m);
-    polygon.clip(|corner| corner.z - NEAR_M);
-    for axis in [0, 1] {
-        for sign in [-1.0, 1.0] {
-            let depth = |corner: Vec3| if lens.is_perspective { corner.z } else { 1.0 };
-            polygon.clip(|corner| half[axis] * depth(corner) - sign * corner[axis]);
+/// How triangles become those of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projection<'a> {
+    pub(crate) lens: &'a Lens,
+    pub(crate) pattern: SamplePattern,
+}
+
+/// Position of a vertex that lies before the near plane or far beside the picture.
+const FAR: [i32; 2] = [i32::MIN; 2];
+
+/// Position of a point of the world in the picture, units; [`FAR`] where its triangles are to be clipped.
+pub(crate) fn screen_position(point_m: Vec3, lens: &Lens) -> [i32; 2] {
+    let camera_m = lens.to_camera(point_m);
+    let beside = (camera_m.truncate().abs() - guard(lens) * depth_factor(camera_m, lens)).max_element();
+    if camera_m.z >= NEAR_M && beside <= 0.0 { to_units(camera_m, lens) } else { FAR }
+}
+
+/// Half the widened picture in (u, v).
+fn guard(lens: &Lens) -> Vec2 {
+    0.5 * lens.size() * lens.pixel * GUARD
+}
+
+/// What (u, v) are multiplied by at a point.
+fn depth_factor(camera_m: Vec3, lens: &Lens) -> f32 {
+    if lens.is_perspective { camera_m.z } else { 1.0 }
+}
+
+fn to_units(camera_m: Vec3, lens: &Lens) -> [i32; 2] {
+    let px = camera_m.truncate() / (depth_factor(camera_m, lens) * lens.pixel) + 0.5 * lens.size();
+    (px * UNITS as f32).to_array().map(round)
+}
+
+/// The nearest integer, halves away from zero; without a call of the system's library.
+fn round(value: f32) -> i32 {
+    let whole = value as i32;
+    let rest = value - whole as f32;
+    whole.saturating_add(i32::from(rest >= 0.5) - i32::from(rest <= -0.5))
+}
+
+impl Projection<'_> {
+    /// Appends the parts of a triangle that may hold a sample, of its corners' positions in the picture and in the world.
+    /// `hides_back` leaves out a triangle that shows its back.
+    pub(crate) fn append_visible(
+        &self,
+        out: &mut Vec<ScreenTriangle>,
+        index: u32,
+        corners: [[i32; 2]; 3],
+        corners_m: impl Fn() -> [Vec3; 3],
+        hides_back: bool,
+    ) {
+        let lens = self.lens;
+        let in_camera_m = || corners_m().map(|corner_m| lens.to_camera(corner_m));
+        if !corners.contains(&FAR) {
+            out.extend(self.triangle(index, corners, in_camera_m, hides_back));
+            return;
+        }
+        let half = guard(lens);
+        let mut polygon = Polygon { corners: [Vec3::ZERO; CORNERS_MAX], count: 3 };
+        polygon.corners[..3].copy_from_slice(&in_camera_m());
+        polygon.clip(|corner| corner.z - NEAR_M);
+        for axis in [0, 1] {
+            for sign in [-1.0, 1.0] {
+                polygon.clip(|corner| half[axis] * depth_factor(corner, lens) - sign * corner[axis]);
+            }
+        }
+        for last in 2..polygon.count {
+            let part = [polygon.corners[0], polygon.corners[last - 1], polygon.corners[last]];
+            out.extend(self.triangle(index, part.map(|corner| to_units(corner, lens)), in_camera_m, hides_back));
         }
     }
-    for last in 2..polygon.count {
-        let part = [polygon.corners[0], polygon.corners[last - 1], polygon.corners[last]];
-        out.extend(ScreenTriangle::new(index, part, corners_m, lens));
+
+    /// A part of a triangle; depths are those of the whole triangle's plane. None without area or sample.
+    fn triangle(
+        &self,
+        index: u32,
+        mut corners: [[i32; 2]; 3],
+        corners_m: impl Fn() -> [Vec3; 3],
+        hides_back: bool,
+    ) -> Option<ScreenTriangle> {
+        let edge = |from: [i32; 2], to: [i32; 2]| [i64::from(to[0] - from[0]), i64::from(to[1] - from[1])];
+        let (first, second) = (edge(corners[0], corners[1]), edge(corners[0], corners[2]));
+        let area = first[0] * second[1] - first[1] * second[0];
+        // Corners are counter-clockwise seen from outside, and y points down.
+        if area == 0 || (hides_back && area > 0) || !self.may_hold_sample(corners) {
+            return None;
+        }
+        if area < 0 {
+            corners.swap(1, 2);
+        }
+        // The plane n·x = k, with x = depth·(u, v, 1) or (u, v, depth).
+        let corners_m = corners_m();
+        let normal = (corners_m[1] - corners_m[0]).cross(corners_m[2] - corners_m[0]);
+        let level = normal.dot(corners_m[0]);
+        let depth =
+            if self.lens.is_perspective { normal / level } else { Vec3::new(-normal.x, -normal.y, level) / normal.z };
+        depth.is_finite().then_some(ScreenTriangle { index, corners, depth })
     }
+
+    /// Whether a sample of the picture lies in the box around three corners: most triangles of a distant body hold none.
+    fn may_hold_sample(&self, corners: [[i32; 2]; 3]) -> bool {
+        let ranges = [range(&corners, 0), range(&corners, 1)];
+        let is_beside = |axis: usize| ranges[axis][1] < 0 || ranges[axis][0] >= self.lens.size_px[axis] as i32 * UNITS;
+        if is_beside(0) || is_beside(1) {
+            return false;
+        }
+        // The first sample that is not before the box is not behind it.
+        let holds = |[low, high]: [i32; 2], offset: i32| {
+            (low - offset - 1).div_euclid(UNITS) < (high - offset).div_euclid(UNITS)
+        };
+        let is_large = ranges.iter().all(|[low, high]| high - low >= UNITS);
+        let mut offsets = self.pattern.offsets().iter();
+        is_large || offsets.any(|offset| holds(ranges[0], offset[0]) && holds(ranges[1], offset[1]))
+    }
+}
+
+/// Least and greatest position of three corners along an axis, units.
+#[inline]
+fn range([a, b, c]: &[[i32; 2]; 3], axis: usize) -> [i32; 2] {
+    [a[axis].min(b[axis]).min(c[axis]), a[axis].max(b[axis]).max(c[axis])]
 }
 
 /// A convex polygon in camera space.
@@ -92,93 +192,56 @@ impl Polygon {
 }
 
 impl ScreenTriangle {
-    /// A part of a triangle; depths are those of the whole triangle's plane. None without area.
-    fn new(index: u32, part_m: [Vec3; 3], corners_m: [Vec3; 3], lens: &Lens) -> Option<Self> {
-        let mut corners = part_m.map(|corner| {
-            let depth = if lens.is_perspective { corner.z } else { 1.0 };
-            let px = corner.truncate() / (depth * lens.pixel) + 0.5 * lens.size();
-            let units = px * UNITS as f32;
-            [units.x.round() as i32, units.y.round() as i32]
-        });
-        let edge = |from: [i32; 2], to: [i32; 2]| [i64::from(to[0] - from[0]), i64::from(to[1] - from[1])];
-        let (first, second) = (edge(corners[0], corners[1]), edge(corners[0], corners[2]));
-        let area = first[0] * second[1] - first[1] * second[0];
-        if area == 0 {
-            return None;
-        }
-        if area < 0 {
-            corners.swap(1, 2);
-        }
-        // The plane n·x = k, with x = depth·(u, v, 1) or (u, v, depth).
-        let normal = (corners_m[1] - corners_m[0]).cross(corners_m[2] - corners_m[0]);
-        let level = normal.dot(corners_m[0]);
-        let depth =
-            if lens.is_perspective { normal / level } else { Vec3::new(-normal.x, -normal.y, level) / normal.z };
-        depth.is_finite().then_some(Self { index, corners, depth, is_perspective: lens.is_perspective })
+    /// First and last pixel (inclusive) of columns and rows, within the picture.
+    #[inline]
+    pub(crate) fn bounds(&self, size_px: [u32; 2]) -> PixelBounds {
+        let pixel = |units: i32, axis: usize| units.div_euclid(UNITS).clamp(0, size_px[axis] as i32 - 1) as u32;
+        let ([left, right], [top, bottom]) = (range(&self.corners, 0), range(&self.corners, 1));
+        [[pixel(left, 0), pixel(top, 1)], [pixel(right, 0), pixel(bottom, 1)]]
     }
 
-    /// First and last pixel (inclusive) of columns and rows, within the picture; none without a pixel.
-    pub(crate) fn bounds(&self, size_px: [u32; 2]) -> Option<[[u32; 2]; 2]> {
-        let mut bounds = [[0; 2]; 2];
-        for axis in [0, 1] {
-            let along = self.corners.map(|corner| corner[axis]);
-            let low = along[0].min(along[1]).min(along[2]).div_euclid(UNITS).max(0);
-            let high = along[0].max(along[1]).max(along[2]).div_euclid(UNITS).min(size_px[axis] as i32 - 1);
-            if low > high {
-                return None;
-            }
-            bounds[0][axis] = low as u32;
-            bounds[1][axis] = high as u32;
-        }
-        Some(bounds)
-    }
-
-    /// Whether a sample lies in the box around the triangle: most triangles of a distant body hold none.
-    pub(crate) fn may_hold_sample(&self, pattern: SamplePattern) -> bool {
-        let range = |axis: usize| {
-            let along = self.corners.map(|corner| corner[axis]);
-            [along[0].min(along[1]).min(along[2]), along[0].max(along[1]).max(along[2])]
-        };
-        let (columns, rows) = (range(0), range(1));
-        // The first sample that is not before the box is not behind it.
-        let holds = |[low, high]: [i32; 2], offset: i32| {
-            (low - offset - 1).div_euclid(UNITS) < (high - offset).div_euclid(UNITS)
-        };
-        let is_large = columns[1] - columns[0] >= UNITS && rows[1] - rows[0] >= UNITS;
-        is_large || pattern.offsets().iter().any(|offset| holds(columns, offset[0]) && holds(rows, offset[1]))
+    /// Whether `i32` holds its edge functions at all pixels that it touches.
+    pub(crate) fn is_small(&self) -> bool {
+        (0..2).all(|axis| {
+            let [low, high] = range(&self.corners, axis);
+            high - low <= SMALL_UNITS
+        })
     }
 
     /// The three edge functions.
     pub(crate) fn edges(&self) -> [Edge; 3] {
         [0, 1, 2].map(|index| {
             let (from, to) = (self.corners[index], self.corners[(index + 1) % 3]);
-            Edge { origin: from, step: [i64::from(from[1] - to[1]), i64::from(to[0] - from[0])] }
+            Edge { origin: from, step: [from[1] - to[1], to[0] - from[0]] }
         })
     }
 
     /// Depth at (u, v), m.
     #[inline]
-    pub(crate) fn depth_m(&self, uv: Vec2) -> f32 {
+    pub(crate) fn depth_m(&self, uv: Vec2, is_perspective: bool) -> f32 {
         let linear = self.depth.x * uv.x + self.depth.y * uv.y + self.depth.z;
-        if self.is_perspective { 1.0 / linear } else { linear }
+        if is_perspective { 1.0 / linear } else { linear }
     }
 }
 
+/// Integers in which edge functions are exact: `i32` for triangles up to [`SMALL_UNITS`], else `i64`.
+pub(crate) trait EdgeValue:
+    Copy + From<i32> + Add<Output = Self> + Mul<Output = Self> + BitOr<Output = Self> + PartialOrd
+{
+}
+
+impl EdgeValue for i32 {}
+impl EdgeValue for i64 {}
+
 impl Edge {
-    /// Change over a number of units along x.
-    pub(crate) fn step(&self, units: i32) -> i64 {
-        self.step[0] * i64::from(units)
+    /// Change over some units along x and y.
+    pub(crate) fn step<T: EdgeValue>(&self, units: [i32; 2]) -> T {
+        T::from(units[0]) * T::from(self.step[0]) + T::from(units[1]) * T::from(self.step[1])
     }
 
-    /// Change over a number of units along y.
-    pub(crate) fn step_down(&self, units: i32) -> i64 {
-        self.step[1] * i64::from(units)
-    }
-
-    /// Value at a position in units: not negative inside.
-    #[inline]
-    pub(crate) fn at(&self, position: [i32; 2]) -> i64 {
-        i64::from(position[0] - self.origin[0]) * self.step[0] + i64::from(position[1] - self.origin[1]) * self.step[1]
+    /// Value at a position in units.
+    pub(crate) fn at<T: EdgeValue>(&self, position: [i32; 2]) -> T {
+        self.step([position[0] - self.origin[0], position[1] - self.origin[1]])
     }
 }
 

@@ -2,16 +2,18 @@
 //!
 //! A crowd walks across a disc; a camera above it sees all bodies. Frames of 1920 × 1080 pixels with four samples are drawn
 //! on one thread, with more and more light: shadow of the sun, occlusion of the ground, occlusion of bodies. The larger
-//! crowd is ten copies of the smaller one; in another case all wear a skinned character. The least duration counts: other
-//! work of the machine only lengthens it. An EXR file with depth, normals, motion and a Cryptomatte is drawn and written on
-//! two threads, compressed and not: the difference is the encoding.
+//! crowd is ten copies of the smaller one; in another case all wear skinned characters: one of tubes, or the characters of
+//! files, with their textures. The least duration counts: other work of the machine only lengthens it. An EXR file with
+//! depth, normals, motion and a Cryptomatte is drawn and written on two threads, compressed and not: the difference is
+//! the encoding.
 
 use std::fs;
 use std::hint::black_box;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use fbcrowd_jobs::character::load;
 use fbcrowd_jobs::observer::Work;
 use fbcrowd_jobs::{JobError, Observer};
 use fbcrowd_render::camera::{CameraOptions, CameraView, ColourBy, Quality, Shot, render_camera_sequence};
@@ -24,8 +26,10 @@ use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, Recording};
 use fbcrowd_sim::scenario::{CameraSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use glam::{Vec2, Vec3};
+use motiondb::body::Skeleton;
 use motiondb::character::Character;
 use motiondb::motion::MotionDb;
+use motiondb_compiler::Outside;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -51,11 +55,16 @@ const BODY_M: f32 = 1.75;
 
 /// Time a frame of the camera view.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench render --json")]
+#[command(
+    after_help = "Examples:\n  fbcrowd bench render --json\n  fbcrowd bench render --character my/woman.glb --character my/man.vrm"
+)]
 pub struct Args {
     /// Number of frames of which the quickest counts.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub turns: u32,
+    /// A GLB, glTF, VRM or .fbchar file of a character; several are worn in turn. The default is a figure of tubes.
+    #[arg(long = "character", value_name = "FILE")]
+    pub characters: Vec<PathBuf>,
 }
 
 /// What was measured.
@@ -112,7 +121,7 @@ const LARGE_GOAL_S: f64 = 0.8;
 /// Runs the bench.
 ///
 /// # Errors
-/// If the bundled clips give no database, or the system gives no thread.
+/// If the bundled clips give no database, a file gives no character, or the system gives no thread.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(bundled()?);
     let mut simulation = Simulation::new(Arc::clone(&db), &disc(AGENTS));
@@ -120,9 +129,11 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let header = Header::new(&db, 0, disc(AGENTS));
     let small = simulation.frames().to_vec();
     let large = copies(&small);
-    let characters = [tube_character(&db.skeleton)];
+    let characters = characters(&args.characters, &db.skeleton)?;
     let mut dressed = simulation.population().clone();
-    dressed.agents.iter_mut().for_each(|life| life.character = Some(0));
+    for (index, life) in dressed.agents.iter_mut().enumerate() {
+        life.character = Some((index % characters.len()) as u32);
+    }
     let work = Work::begin(observer, "frames", (LIGHTS.len() + 4) * args.turns as usize);
     let one_thread = pool(1)?;
     let time = |agents: &[AgentFrame], lens: Lens, light: usize, worn: &[Character]| {
@@ -168,6 +179,14 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     goals.push(Goal { name, measured: Some(exr.encoding_s), goal: ENCODING_GOAL_S });
     let details = Details { cases, exr };
     Ok(BenchReport { text: text(&details), details, goals, criteria: Vec::new() })
+}
+
+/// The characters of files; a figure of tubes where there are none.
+fn characters(files: &[PathBuf], skeleton: &Skeleton) -> Result<Vec<Character>, JobError> {
+    if files.is_empty() {
+        return Ok(vec![tube_character(skeleton)]);
+    }
+    files.iter().map(|file| Ok(load(file, Outside::Refused, &[])?.character)).collect()
 }
 
 /// Draws and writes an EXR file of the crowd, compressed and not.

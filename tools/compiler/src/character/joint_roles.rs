@@ -61,6 +61,9 @@ pub(crate) fn slots_of_roles(
         *slot = joint.map(|joint| kept[joint]);
     }
     check_legs(pose, &slots)?;
+    if let Some([first, second]) = rig::surplus_legs(&at_rest(pose, clip, &kept), &roles, DVec3::Y) {
+        return Err(CharacterReason::ManyLegs { first, second });
+    }
     name_the_pelvis(pose, &mut slots);
     Ok((slots, RolesFrom::BindPose))
 }
@@ -94,6 +97,12 @@ fn clip(pose: &BindPose, kept: &[usize]) -> SourceClip {
         up_axis: None,
         diagnostics: Vec::new(),
     }
+}
+
+/// A clip of the bind pose with the nodes where they are in the scene.
+fn at_rest(pose: &BindPose, clip: SourceClip, kept: &[usize]) -> SourceClip {
+    let positions = kept.iter().map(|&slot| pose.world[slot].w_axis.truncate()).collect();
+    SourceClip { positions, ..clip }
 }
 
 /// A rejection of a clip in the words of characters.

@@ -117,6 +117,17 @@ pub enum CharacterReason {
         /// Angle between the legs' direction and the trunk, degrees.
         trunk_deg: f64,
     },
+    /// Limbs beside the legs stand on the ground: a spider or a centaur.
+    #[error(
+        "more than two legs: `{first}` and `{second}` stand on the ground beside the likeliest legs; crowds walk on two \
+         legs, so give a human figure, or export a VRM file whose bone table names two legs and two arms"
+    )]
+    ManyLegs {
+        /// Uppermost joint of one limb.
+        first: String,
+        /// Uppermost joint of the other limb.
+        second: String,
+    },
     /// The likeliest legs are ears, wings or the like.
     #[error(
         "no human legs: the likeliest are {first} and {second}, which {problem}; name the legs' joints (LeftUpLeg, \

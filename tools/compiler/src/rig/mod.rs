@@ -4,7 +4,7 @@
 //!
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
 //! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
-//! characters).
+//! characters) and `surplus_legs` (bodies with more than two legs).
 
 mod body_plan;
 pub(crate) mod joint_names;
@@ -13,12 +13,16 @@ mod role_assignment;
 mod role_search;
 pub(crate) mod roles;
 mod source_rig;
+mod surplus_legs;
 mod two_bodies;
+
+use glam::DVec3;
 
 use crate::error::RejectionReason;
 use crate::read::source_clip::{MAX_JOINTS, SourceClip};
 
 pub use roles::{JointMap, Roles};
+use source_rig::SourceRig;
 pub(crate) use source_rig::sampled_frames;
 
 /// The roles of a clip's joints. `known` states some of them: all joints of legs and arms, or none of them.
@@ -46,6 +50,12 @@ pub(crate) fn find_roles_by_name(clip: &SourceClip) -> Result<Roles, RejectionRe
     check_size(clip)?;
     two_bodies::check_is_one_body(clip)?;
     role_search::search_by_name(clip)
+}
+
+/// Names of the uppermost joints of a pair of legs that a body has beside those of its roles; none of a human body.
+/// `vertical` is upwards in the clip.
+pub(crate) fn surplus_legs(clip: &SourceClip, roles: &Roles, vertical: DVec3) -> Option<[String; 2]> {
+    surplus_legs::surplus_legs(&SourceRig::new(clip), roles, vertical)
 }
 
 /// Checks the roles that a file states itself. Returns whether left and right are swapped.
@@ -83,7 +93,7 @@ fn without_names(clip: &SourceClip) -> SourceClip {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DQuat, DVec3};
+    use glam::DQuat;
     use motiondb::body::JOINT_COUNT;
 
     use super::*;

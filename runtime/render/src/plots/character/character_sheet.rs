@@ -13,6 +13,7 @@ use tiny_skia::Pixmap;
 
 use crate::camera::worn::{Textures, Worn};
 use crate::camera::{CameraView, ColourBy, Quality, Shot};
+use crate::detail::Level;
 use crate::plots::character::joint_names::{LETTERS_PX, NAMES_PX, draw_joints, draw_names, draw_text};
 use crate::plots::character::stride::Stride;
 use crate::raster::text::{TextAnchor, Typeface};
@@ -60,10 +61,11 @@ pub fn character_sheet(character: &Character, stride: &Stride) -> Pixmap {
     ];
     let layout = Layout::new(&figures);
     let textures = Textures::new(std::slice::from_ref(character)).all;
+    let level = Level::new(character.mesh.clone());
     let mut scene = SceneParts { textures, ..SceneParts::default() };
     for (index, (figure, x_m)) in figures.iter().zip(layout.x_m).enumerate() {
         let owner = Owner { agent: index as u32, material: 1 };
-        let worn = Worn { fit: &fit, mesh: &character.mesh, first_texture: 0, dye: Dye::default(), owner };
+        let worn = Worn { fit: &fit, level: &level, first_texture: 0, dye: Dye::default(), owner };
         worn.append(&mut scene, &figure.moved(x_m));
     }
     let header = Header::of(stride.database.clone(), Scenario::of(Vec::new()));

@@ -29,5 +29,5 @@ mod wkt_polygons;
 mod zone_tables;
 
 pub use agent_placement::{agents_of_lines, fault_of_lines};
-pub use reading::{agent_files, character_files, check_styles, names_motion, parse, read, read_plan};
+pub use reading::{agent_files, camera_mistake, character_files, check_styles, names_motion, parse, read, read_plan};
 pub use scenario_file::MotionSource;

@@ -155,6 +155,19 @@ pub fn character_files(path: &Path) -> Result<Vec<CharacterFile>, ScenarioError>
     character_tables::files(&source, &file.characters)
 }
 
+/// A mistake of a camera, by its index, that is found outside the scenario file: shown at the line of the key that the
+/// message begins with. Where the file cannot be read any more, that is the mistake.
+pub fn camera_mistake(path: &Path, camera: usize, message: String, help: &str) -> ScenarioError {
+    let pointed = || {
+        let source = read_text(path)?;
+        let file = ScenarioFile::parse(&source)?;
+        let table = file.cameras().nth(camera).map_or(0..0, Spanned::span);
+        let span = key_span(&source.text, &table, &message).unwrap_or(table);
+        Ok(source.invalid(span, message, help).into())
+    };
+    pointed().unwrap_or_else(|error| error)
+}
+
 fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
     SourceText::read(path).map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })
 }
