@@ -188,6 +188,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         frames,
         in_place_mps: None,
         low_parts: Vec::new(),
+        jumps: Vec::new(),
         unfit: None,
         choices: Choices::default(),
         style: String::new(),

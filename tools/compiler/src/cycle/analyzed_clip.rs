@@ -161,7 +161,8 @@ fn beside(frames: Range<usize>, margin: usize) -> Range<usize> {
     frames.start.saturating_sub(margin)..frames.end + margin
 }
 
-/// The movements of a clip that may be transitions: the body is upright, and they are of the kind that a manifest states.
+/// The movements of a clip that may be transitions: the body is upright, its pose does not jump, and they are of the
+/// kind that a manifest states.
 fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip) -> Vec<Movement> {
     if clip.unfit.is_some() {
         return Vec::new();
@@ -176,14 +177,14 @@ fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip
     };
     let pauses: Vec<Pause> = gait.pauses.iter().filter(|pause| !is_in_strides(pause)).cloned().collect();
     let mut found = movements(&pauses, &gait.strikes, grounded.frame_rate_hz, &frames);
-    let is_low = |movement: &Movement| {
+    let left_out = clip.left_out_frames();
+    let is_left_out = |movement: &Movement| {
         let [first, last] = movement.frames();
-        let is_part =
-            |part: &LowPart| first - before < part.frames.end as f64 && part.frames.start as f64 <= last - before;
-        clip.left_out_parts().iter().any(is_part)
+        let is_part = |part: &Range<usize>| first - before < part.end as f64 && part.start as f64 <= last - before;
+        left_out.iter().any(is_part)
     };
     let is_stated = |movement: &Movement| stated.is_none_or(|kind| MovementKind::of(kind) == movement.kind);
-    found.retain(|movement| is_stated(movement) && !is_low(movement));
+    found.retain(|movement| is_stated(movement) && !is_left_out(movement));
     found
 }
 

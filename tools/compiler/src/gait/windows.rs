@@ -25,7 +25,6 @@ use crate::gait::stride_alignment::aligned_strides;
 use crate::gait::unsteady_strides::why_unsteady;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
-use crate::retarget::posture::LowPart;
 
 /// Lenience of each reading: multiples of the contact limits of the definition.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
@@ -75,8 +74,8 @@ pub struct GaitAnalysis {
 /// Finds contacts, landmarks and steady windows of a clip.
 ///
 /// The reading that shows the most strides counts, of several the strictest: the feet of noisy captures may slide and
-/// lift more, as little as it takes. Nothing in the parts left out is a stride or a rest.
-pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[LowPart]) -> GaitAnalysis {
+/// lift more, as little as it takes. No frame that is left out is in a stride or a rest.
+pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Range<usize>]) -> GaitAnalysis {
     let mut left = FootPoints::default();
     let track = BodyTrack::of(clip, body, |joints| left.push(joints, body, 0));
     // One foot after the other: the points of a long clip take much memory.
@@ -106,7 +105,7 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
 
 /// Frames of a clip of which no window is made.
 struct LeftOutFrames<'a> {
-    parts: &'a [LowPart],
+    parts: &'a [Range<usize>],
     /// Frames of a round, of a loop.
     loop_frames: Option<usize>,
 }
@@ -114,7 +113,7 @@ struct LeftOutFrames<'a> {
 impl LeftOutFrames<'_> {
     fn contains(&self, frame: usize) -> bool {
         let frame = self.loop_frames.map_or(frame, |round| frame % round);
-        self.parts.iter().any(|part| part.frames.contains(&frame))
+        self.parts.iter().any(|part| part.contains(&frame))
     }
 
     fn without_strides(&self, mut steps: ClipSteps) -> ClipSteps {

@@ -3,6 +3,7 @@
 //! Metres, z up, right-handed, f64. A body's frame: x forward, y left. Pairs of sides are `[left, right]`.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
@@ -31,6 +32,8 @@ pub struct HumanClip {
     pub in_place_mps: Option<DVec2>,
     /// Parts in which the body is not upright, in order of time.
     pub low_parts: Vec<LowPart>,
+    /// Frames in which the pose jumps, in order of time.
+    pub jumps: Vec<Range<usize>>,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
     /// What a manifest states about the clip's part in the set.
@@ -95,6 +98,11 @@ impl HumanClip {
     /// Parts that give no examples: those in which the body is not upright, unless a manifest takes them.
     pub fn left_out_parts(&self) -> &[LowPart] {
         if self.choices.takes_any_posture { &[] } else { &self.low_parts }
+    }
+
+    /// Frames of which no example and no transition is made: those of the parts that are left out, and jumps.
+    pub(crate) fn left_out_frames(&self) -> Vec<Range<usize>> {
+        self.left_out_parts().iter().map(|part| &part.frames).chain(&self.jumps).cloned().collect()
     }
 
     /// Whether the body is upright from one second of the file to another.

@@ -70,6 +70,7 @@ pub(crate) fn to_human(
         frames,
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
         low_parts,
+        jumps: Vec::new(),
         unfit: None,
         choices: Choices::default(),
         style: String::new(),
