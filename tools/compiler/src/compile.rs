@@ -30,6 +30,7 @@ use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
 use crate::transition::transitions::transitions;
+use crate::transition::unused_corners::note_unused_corners;
 
 /// Memory of each frame of an analysed clip beside its pose, bytes: its signatures, at 30 frames a second.
 const ANALYZED_FRAME_BYTES: usize = 300;
@@ -137,10 +138,11 @@ fn style_database(
     let cut = idles(&clips, &analyzed, body);
     let adding = windows_that_add(analyzed);
     let named = named_cycles(&clips, &adding, body)?;
-    let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
+    let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);
     observer(CompileEvent::Stage("transitions"));
     let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
+    note_unused_corners(&mut selected.sources, &adding, &actions);
     Ok(MotionDb { style, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
 }
 

@@ -10,6 +10,7 @@ use std::ops::Range;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
 
+use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
 use crate::cycle::mean_stride::{frames_beside, mean_stride};
 use crate::cycle::steady_cycle::SteadyCycle;
@@ -39,6 +40,8 @@ pub(crate) struct AnalyzedClip {
     pub(crate) stances: [Vec<FootStance>; 2],
     /// Where transitions may lie, in order of time; of a loop within its middle round.
     pub(crate) movements: Vec<Movement>,
+    /// Sharp turns of the walking body that no steady window shows, in order of time.
+    pub(crate) corners: Vec<Corner>,
     /// Diagnostics of the clip as a whole.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Steady windows that give no example beside others.
@@ -94,17 +97,18 @@ impl AnalyzedClip {
             .for_each(|window| window.flaws += standing_flaws);
         let stances = performer.gait.clearest_stances().clone();
         let movements = clip_movements(clip, &performer.gait, &grounded);
+        let corners = clip_corners(clip, &performer.gait, &times, grounded.loop_frames());
         let rests = performer.gait.rests;
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
             let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out };
+            return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
         let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
         let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
-        Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out }
+        Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
 
     /// The frames in which something is searched: all, or the middle round of a loop.
@@ -198,6 +202,27 @@ fn not_upright(clip: &HumanClip, frame_count: usize) -> Option<Unfit> {
 fn longest_part(parts: &[LowPart]) -> Option<&LowPart> {
     // The first of the longest: `max_by_key` alone would take the last.
     parts.iter().rev().max_by_key(|part| part.frames.len())
+}
+
+/// The corners of a clip that no steady window shows; none in parts that are left out.
+fn clip_corners(clip: &HumanClip, gait: &GaitAnalysis, times: &ClipTimes, loop_frames: Option<usize>) -> Vec<Corner> {
+    if clip.unfit.is_some() {
+        return Vec::new();
+    }
+    let before = loop_frames.unwrap_or(0);
+    let frames = searched_frames(gait.path.hips_m.len(), loop_frames);
+    let left_out = clip.left_out_frames();
+    let steady_s = gait.steady_parts().into_iter().map(|frames| frames.map(|frame| times.in_file_s(frame)));
+    let steady_s: Vec<[f64; 2]> = steady_s.collect();
+    let corner = |turn: SharpTurn| {
+        let frames = turn.frames.start - before..turn.frames.end - before;
+        let is_left_out = left_out.iter().any(|part| frames.start < part.end && part.start < frames.end);
+        let window_s = [frames.start, frames.end - 1].map(|frame| times.in_file_s(frame as f64));
+        let corner = Corner { window_s, turn_rad: turn.turn_rad };
+        let is_steady = steady_s.iter().map(|part_s| corner.share_within(*part_s)).sum::<f64>() >= SHOWN_SHARE;
+        (!is_left_out && !is_steady).then_some(corner)
+    };
+    sharp_turns(&gait.path, clip.frame_rate_hz, &frames).into_iter().filter_map(corner).collect()
 }
 
 /// The frames of a clip in its file.

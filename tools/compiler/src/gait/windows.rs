@@ -13,7 +13,7 @@ use motiondb::diagnostic::Unfit;
 use motiondb::statistics::percentile;
 
 use crate::frame_runs::frame_runs;
-use crate::gait::body_track::BodyTrack;
+use crate::gait::body_track::{BodyPath, BodyTrack};
 use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
 use crate::gait::movements::{Strike, strikes};
@@ -67,6 +67,8 @@ pub struct GaitAnalysis {
     pub(crate) pauses: Vec<Pause>,
     /// Touches of the ground, in order of time; of a loop within its middle round.
     pub(crate) strikes: Vec<Strike>,
+    /// Where the body is in each frame of the analysed clip.
+    pub(crate) path: BodyPath,
     /// Why no window steps although the body makes steps; only of a clip whose windows all stand.
     pub lost_steps: Option<Unfit>,
 }
@@ -97,9 +99,12 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Ra
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());
     let lost_steps = lost_steps(&windows, &steps[0], &frames);
-    let mut found = GaitAnalysis { stances, windows, rests, pauses: Vec::new(), strikes: Vec::new(), lost_steps };
-    found.pauses = pauses(&track, found.clearest_stances(), &frames);
-    found.strikes = strikes(found.clearest_stances(), &track, &frames);
+    let (pauses_of, strikes_of) = (pauses, strikes);
+    let (pauses, strikes) = (Vec::new(), Vec::new());
+    let mut found = GaitAnalysis { stances, windows, rests, pauses, strikes, path: BodyPath::default(), lost_steps };
+    found.pauses = pauses_of(&track, found.clearest_stances(), &frames);
+    found.strikes = strikes_of(found.clearest_stances(), &track, &frames);
+    found.path = BodyPath { hips_m: track.hips_m, facing_rad: track.facing_rad };
     found
 }
 
