@@ -192,6 +192,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         unfit: None,
         choices: Choices::default(),
         style: String::new(),
+        stored: None,
     }
 }
 

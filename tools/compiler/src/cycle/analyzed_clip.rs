@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
+use serde::{Deserialize, Serialize};
 
 use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
@@ -27,6 +28,7 @@ use crate::retarget::posture::LowPart;
 const LOW_PART_MIN_S: f64 = 0.5;
 
 /// A clip on the target body, and its steady windows that may become examples.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct AnalyzedClip {
     /// The clip on the target body; after [`Self::keep_needed`] some of its poses.
     pub(crate) grounded: GroundedClip<'static>,
@@ -49,7 +51,7 @@ pub(crate) struct AnalyzedClip {
 }
 
 /// Counts of steady windows of a clip that give no example beside others.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub(crate) struct LeftOutWindows {
     /// Windows whose feet slide or are hardly planted.
     pub(crate) doubtful: usize,

@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::frame_runs::frame_runs;
 use crate::gait::body_track::BodyPath;
 
@@ -19,7 +21,7 @@ const SPEED_MIN_MPS: f64 = 0.3;
 pub(crate) const SHOWN_SHARE: f64 = 0.5;
 
 /// A sharp turn of a body that walks, in its clip.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Corner {
     /// First and last second, from the file's first frame.
     pub(crate) window_s: [f64; 2],

@@ -9,6 +9,7 @@ use std::ops::Range;
 use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::validate::is_open;
+use serde::{Deserialize, Serialize};
 
 use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
 use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
@@ -28,6 +29,7 @@ const PELVIS_HEIGHT_MAX_LEGS: f64 = 3.0;
 const PELVIS_ASIDE_MAX_LEGS: f64 = 2.0;
 
 /// A steady window of a clip, as its example shows it.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct SteadyCycle {
     /// First and last second of the window, from the file's first frame.
     pub(crate) window_s: [f64; 2],
@@ -42,6 +44,7 @@ pub(crate) struct SteadyCycle {
 }
 
 /// What a body does in a steady window.
+#[derive(Serialize, Deserialize)]
 pub(crate) enum SteadyMotion {
     /// It steps: the mean stride.
     Steps(Box<GaitCycle>),

@@ -2,18 +2,19 @@
 //!
 //! Metres, z up, right-handed, f64. A body's frame: x forward, y left. Pairs of sides are `[left, right]`.
 
-use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::Unfit;
 use motiondb::motion::{ActionKind, SourceRecord};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
 
 use crate::retarget::posture::LowPart;
 
 /// A clip after import.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct HumanClip {
     /// Name of the example: the file's stem; of one clip of several, with the clip's name appended.
     pub name: String,
@@ -25,7 +26,8 @@ pub struct HumanClip {
     pub frame_rate_hz: f64,
     /// Bones of the performer.
     pub body: HumanBody,
-    /// One pose for each frame.
+    /// One pose for each frame; none where `stored` stands for them.
+    #[serde(skip)]
     pub frames: Vec<HumanPose>,
     /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in
     /// place; none of a clip that travels.
@@ -40,10 +42,26 @@ pub struct HumanClip {
     pub choices: Choices,
     /// The style, such as `elderly`; empty where none is stated or found.
     pub style: String,
+    /// What a cache knows of the frames.
+    pub stored: Option<StoredFrames>,
+}
+
+/// SHA-256.
+pub(crate) type Digest = [u8; 32];
+
+/// What a cache knows of the frames of a clip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StoredFrames {
+    /// Key of the clip: of its file, the settings and the program.
+    pub(crate) key: Digest,
+    /// Number of frames.
+    pub(crate) count: usize,
+    /// Digest of the frame rate and of all poses.
+    pub(crate) digest: Digest,
 }
 
 /// What a manifest states about a clip's part in the set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Choices {
     /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
@@ -62,7 +80,7 @@ pub struct Choices {
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), m.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HumanBody {
     /// Offset of each joint from its parent; zero for the first joint.
     pub offsets_m: [DVec3; JOINT_COUNT],
@@ -77,7 +95,7 @@ pub struct HumanBody {
 }
 
 /// Pose of one frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HumanPose {
     /// World position of the pelvis joint (the midpoint of the hips), m.
     pub pelvis_m: DVec3,
@@ -111,10 +129,22 @@ impl HumanClip {
         !self.low_parts.iter().any(|part| first < part.frames.end as f64 && part.frames.start as f64 <= last)
     }
 
-    /// Order of two clips by their content, which names and folders do not change.
-    pub(crate) fn compare_content(&self, other: &Self) -> Ordering {
-        let heads = [self, other].map(|clip| (clip.frames.len(), clip.first_frame, clip.choices));
-        heads[0].cmp(&heads[1]).then_with(|| self.values().cmp(other.values()))
+    /// Number of frames, also where a cache stands for them.
+    pub(crate) fn frame_count(&self) -> usize {
+        self.stored.as_ref().map_or(self.frames.len(), |stored| stored.count)
+    }
+
+    /// What orders clips by their content, which names and folders do not change.
+    pub(crate) fn content_order(&self) -> impl Ord + use<> {
+        let digest = self.stored.as_ref().map_or_else(|| self.digest(), |stored| stored.digest);
+        (self.frame_count(), self.first_frame, self.choices, digest)
+    }
+
+    /// Digest of the frame rate and of all poses.
+    pub(crate) fn digest(&self) -> Digest {
+        let mut hasher = Sha256::new();
+        self.values().for_each(|bits| hasher.update(bits.to_le_bytes()));
+        hasher.finalize().into()
     }
 
     /// Bits of the frame rate and of all poses.

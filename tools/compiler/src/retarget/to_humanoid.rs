@@ -74,6 +74,7 @@ pub(crate) fn to_human(
         unfit: None,
         choices: Choices::default(),
         style: String::new(),
+        stored: None,
     })
 }
 
