@@ -18,6 +18,7 @@ use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
 use crate::dedup::comparison_log::ComparisonLog;
 use crate::error::{CompileError, Rejection};
+use crate::ground::head_bends::head_bends;
 use crate::ground::target_body::target_body;
 use crate::input::clip_set::{self, ClipSet};
 use crate::input::manifest::Manifest;
@@ -141,12 +142,13 @@ fn database(
     check_memory(&clips)?;
     let mut set = TargetedClips::of(clips).ok_or(CompileError::NoClips)?;
     observer(CompileEvent::Stage("analysis of gaits"));
-    let (compared, analyzed) = match cache {
+    let (compared, mut analyzed) = match cache {
         Some(cache) => (set.compared_by(&|clip| cache.compared(clip)), set.analyzed_with(cache)?),
         None => (set.compared(), set.analyzed()),
     };
     observer(CompileEvent::Stage("selection"));
     let TargetedClips { clips, body } = set;
+    analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
     let log = cache.map_or_else(ComparisonLog::default, |cache| cache.comparisons(&clips));
     let parts = by_style(clips, compared, analyzed).into_iter();
     let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body, &log)).collect();

@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 
+use glam::DQuat;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
 use serde::{Deserialize, Serialize};
@@ -14,13 +15,14 @@ use serde::{Deserialize, Serialize};
 use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
 use crate::cycle::mean_stride::{frames_beside, mean_stride};
-use crate::cycle::steady_cycle::SteadyCycle;
+use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::gait::foot_stance::FootStance;
 use crate::gait::movements::{Movement, MovementKind, frames_beside_cut, movements};
 use crate::gait::pauses::Pause;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitAnalysis, GaitWindow, WindowGait, searched_frames};
 use crate::ground::grounded_clip::GroundedClip;
+use crate::ground::head_bends::bend_head;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::posture::LowPart;
 
@@ -132,6 +134,15 @@ impl AnalyzedClip {
         let needed = stands.chain(rests).map(with_margin).chain(moves).collect();
         self.grounded.keep_frames(needed);
         self
+    }
+
+    /// Bends the head in all poses. What is known of the clip does not depend on it.
+    pub(crate) fn bend_head(&mut self, bend: DQuat) {
+        let cycles = self.windows.iter_mut().filter_map(|window| match &mut window.motion {
+            SteadyMotion::Steps(cycle) => Some(&mut cycle.rows),
+            SteadyMotion::Stands(_) => None,
+        });
+        cycles.flatten().chain(self.grounded.poses.own_mut()).for_each(|pose| bend_head(pose, bend));
     }
 
     /// Duration from the first frame to the last, s.

@@ -62,6 +62,16 @@ impl GroundedPoses<'_> {
         }
     }
 
+    /// Every pose of its own.
+    pub(crate) fn own_mut(&mut self) -> impl Iterator<Item = &mut HumanPose> {
+        let (own, parts) = match self {
+            Self::Own(poses) => (&mut poses[..], &mut [][..]),
+            Self::Moved { .. } => (&mut [][..], &mut [][..]),
+            Self::Parts(kept) => (&mut [][..], &mut kept.parts[..]),
+        };
+        own.iter_mut().chain(parts.iter_mut().flat_map(|(_, poses)| poses))
+    }
+
     /// Position of the pelvis in each frame that has a pose, m.
     pub(crate) fn pelvis_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
         let (own, moved, parts) = match self {

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
 use crate::retarget::posture::LowPart;
+use crate::rig::rig_head::RigHead;
 
 /// A clip after import.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -38,6 +39,8 @@ pub struct HumanClip {
     pub jumps: Vec<Range<usize>>,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
+    /// The rig, and the offset of its head as the clip alone shows it; none of a clip that is made.
+    pub rig_head: Option<RigHead>,
     /// What a manifest states about the clip's part in the set.
     pub choices: Choices,
     /// The style, such as `elderly`; empty where none is stated or found.

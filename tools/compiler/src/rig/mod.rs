@@ -3,12 +3,13 @@
 //! Enters: a [`SourceClip`], in source units and axes. Leaves: its [`Roles`], or why the skeleton is not human.
 //!
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
-//! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
-//! characters).
+//! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two characters)
+//! and `rig_head` (what the clips of one rig share).
 
 mod body_plan;
 pub(crate) mod joint_names;
 mod limb;
+pub(crate) mod rig_head;
 mod role_assignment;
 mod role_search;
 pub(crate) mod roles;
