@@ -112,6 +112,15 @@ pub enum Note {
         /// The style.
         style: String,
     },
+    /// The body turns sharply while it walks, in no example and no transition.
+    CornersUnused {
+        /// First and last second of the greatest of these turns.
+        window_s: [f32; 2],
+        /// Its turn, rad; positive to the left.
+        turn_rad: f32,
+        /// Number of the others.
+        more: u32,
+    },
 }
 
 impl Note {
@@ -134,6 +143,7 @@ impl Note {
             Self::CoincidentManners { .. } => "coincident_manners",
             Self::IdleOfOtherStyle { .. } => "idle_of_other_style",
             Self::AddedToStyle { .. } => "added_to_style",
+            Self::CornersUnused { .. } => "corners_unused",
         }
     }
 }
@@ -194,6 +204,20 @@ impl fmt::Display for Note {
             }
             Self::AddedToStyle { style } => {
                 write!(out, "no clip without a style steps, so this one is used for style `{style}`")
+            }
+            Self::CornersUnused { window_s: [first_s, last_s], turn_rad, more } => {
+                let (turn_deg, side) = (turn_rad.abs().to_degrees(), if *turn_rad > 0.0 { "left" } else { "right" });
+                let rate_deg_s = turn_deg / (last_s - first_s).max(f32::EPSILON);
+                write!(
+                    out,
+                    "from {first_s:.1} s to {last_s:.1} s the body walks and turns by {turn_deg:.0}° to the {side} "
+                )?;
+                write!(out, "({rate_deg_s:.0} °/s); no example and no transition shows this")?;
+                match more {
+                    0 => Ok(()),
+                    1 => out.write_str(", nor 1 further turn"),
+                    _ => write!(out, ", nor {more} further turns"),
+                }
             }
             Self::LowPartsLeftOut { posture, longest_s: [first_s, last_s], total_s, more } => {
                 write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;

@@ -98,6 +98,13 @@ pub enum Unfit {
     ArmsOut,
     /// The body stands with a raised arm, as one that aims.
     ArmRaised,
+    /// The last pose of the closed cycle turns a joint to the first faster than any pose within it.
+    CycleOpen {
+        /// Turn from the last pose to the first, rad.
+        seam_rad: f32,
+        /// Greatest turn from pose to pose within the cycle, rad.
+        largest_rad: f32,
+    },
 }
 
 impl Unfit {
@@ -122,6 +129,7 @@ impl Unfit {
             Self::StridesUneven { .. } => "strides_uneven",
             Self::ArmsOut => "arms_out",
             Self::ArmRaised => "arm_raised",
+            Self::CycleOpen { .. } => "cycle_open",
         }
     }
 }
@@ -186,6 +194,13 @@ impl fmt::Display for Unfit {
             ),
             Self::ArmRaised => out.write_str(
                 "the body stands with a raised arm, as one that aims; use a clip of a body that stands at ease",
+            ),
+            Self::CycleOpen { seam_rad, largest_rad } => write!(
+                out,
+                "the closed stride jumps: its end turns a joint by {:.0}° to its beginning, other poses by {:.0}° at most; \
+                 use a steadier part",
+                seam_rad.to_degrees(),
+                largest_rad.to_degrees()
             ),
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \

@@ -128,6 +128,15 @@ pub enum Warning {
         /// The style.
         style: String,
     },
+    /// The pose jumps from one frame to the next, or within a thirtieth of a second.
+    PoseJumps {
+        /// Time of the greatest jump, s.
+        at_s: f32,
+        /// Greatest displacement of a joint in it, cm.
+        distance_cm: f32,
+        /// Number of further jumps in the clip.
+        more: u32,
+    },
 }
 
 impl Warning {
@@ -143,6 +152,7 @@ impl Warning {
             Self::Skating { .. } => "skating",
             Self::TurnWithoutStep { .. } => "turn_without_step",
             Self::Jump { .. } => "jump",
+            Self::PoseJumps { .. } => "pose_jumps",
             Self::FeetSlide { .. } => "feet_slide",
             Self::FeetHardlyPlanted { .. } => "feet_hardly_planted",
             Self::FrameCountWrong { .. } => "frame_count_wrong",
@@ -191,6 +201,7 @@ impl fmt::Display for Warning {
                 "the body turns at {:.0} °/s without a step, as on a turntable; correct the root's motion",
                 turn_rate_rad_s.to_degrees()
             ),
+            Self::PoseJumps { at_s, distance_cm, more } => pose_jumps(out, *at_s, *distance_cm, *more),
             Self::Jump { lift_cm } => write!(
                 out,
                 "the body jumps: both feet leave the ground by {lift_cm:.0} cm; select other `frames` in a manifest.toml"
@@ -274,6 +285,19 @@ fn leap(out: &mut fmt::Formatter<'_>, distance_m: f32, frame: u32, more: u32) ->
         out,
         "the body leaps by {distance_m:.1} m from frame {frame} to frame {next}{more}, so its mean speeds are wrong; cut \
          the file there, or select `frames` in a manifest.toml"
+    )
+}
+
+fn pose_jumps(out: &mut fmt::Formatter<'_>, at_s: f32, distance_cm: f32, more: u32) -> fmt::Result {
+    let more = match more {
+        0 => String::new(),
+        1 => ", and at one other time by less".to_owned(),
+        _ => format!(", and at {more} other times by less"),
+    };
+    write!(
+        out,
+        "the pose jumps by {distance_cm:.0} cm at {at_s:.2} s{more}; no example and no transition is made across; repair \
+         the motion there"
     )
 }
 

@@ -91,16 +91,29 @@ impl AtomicFile {
     /// # Errors
     /// If writing to the disk or renaming fails; the temporary file is removed.
     pub fn commit(mut self) -> io::Result<()> {
-        let writer = self.writer.take().expect("taken only here, and self is consumed");
-        // The lock is held until the file is renamed.
-        let locked = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
         let sync = SYNC.load(Ordering::Relaxed);
+        let (temporary, _locked) = self.written(sync)?;
+        temporary_files::publish(temporary, &self.target)?;
+        if sync { sync_folder(folder_of(&self.target)) } else { Ok(()) }
+    }
+
+    /// As [`Self::commit`], of a file that can be made again: it is not forced onto the disk, and is no output.
+    ///
+    /// # Errors
+    /// If writing or renaming fails; the temporary file is removed.
+    pub fn commit_unsynced(mut self) -> io::Result<()> {
+        let (temporary, _locked) = self.written(false)?;
+        temporary_files::publish_uncounted(temporary, &self.target)
+    }
+
+    /// The temporary file, written whole. The file holds its lock until it is renamed.
+    fn written(&mut self, sync: bool) -> io::Result<(TempPath, File)> {
+        let writer = self.writer.take().expect("taken only by commit, which consumes self");
+        let locked = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
         if sync {
             locked.sync_all()?;
         }
-        let temporary = self.temporary.take().expect("taken only here, and self is consumed");
-        temporary_files::publish(temporary, &self.target)?;
-        if sync { sync_folder(folder_of(&self.target)) } else { Ok(()) }
+        Ok((self.temporary.take().expect("taken only by commit, which consumes self"), locked))
     }
 }
 

@@ -87,19 +87,33 @@ fn builder() -> Builder<'static, 'static> {
     builder
 }
 
-/// Renames a temporary file to its final path.
+/// Renames a temporary file to its final path, and counts it among the completed outputs.
 ///
 /// # Errors
 /// If the system refuses; the temporary file is removed.
 pub(crate) fn publish(temporary: TempPath, target: &Path) -> io::Result<()> {
     let mut written = written();
-    written.open.remove(&*temporary);
-    temporary.persist(target).map_err(|error| error.error)?;
+    written.rename(temporary, target)?;
     written.completed.count += 1;
     if written.completed.first.len() < NAMED_OUTPUTS_MAX {
         written.completed.first.push(target.to_owned());
     }
     Ok(())
+}
+
+/// As [`publish`], of a file that is no output.
+///
+/// # Errors
+/// As [`publish`].
+pub(crate) fn publish_uncounted(temporary: TempPath, target: &Path) -> io::Result<()> {
+    written().rename(temporary, target)
+}
+
+impl WrittenFiles {
+    fn rename(&mut self, temporary: TempPath, target: &Path) -> io::Result<()> {
+        self.open.remove(&*temporary);
+        temporary.persist(target).map_err(|error| error.error)
+    }
 }
 
 /// Removes a temporary file.

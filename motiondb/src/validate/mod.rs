@@ -21,7 +21,7 @@ mod velocity_sets;
 
 use crate::motion::motion_db::{MotionDb, MotionExample};
 
-pub use motion::contradiction;
+pub use motion::{contradiction, is_open};
 pub use styles::is_style_name;
 
 /// The check of one invariant.

@@ -35,10 +35,16 @@ pub(crate) fn cycles_close(db: &MotionDb) -> CheckResult {
         };
         let largest = (0..PHASE_COUNT - 1).map(step).fold(0.0, f32::max);
         let seam = step(PHASE_COUNT - 1);
-        ensure(seam <= SEAM_LIMIT * largest + SEAM_MIN_RAD, || {
+        ensure(!is_open(seam, largest), || {
             format!("the seam turns a joint by {seam} rad, but rows of the cycle by {largest} rad at most")
         })
     })
+}
+
+/// Whether a cycle is open whose joints turn by so much from the last row to the first, and from row to row within it,
+/// rad. A compiler must leave such a cycle out.
+pub fn is_open(seam_rad: f32, largest_rad: f32) -> bool {
+    seam_rad > SEAM_LIMIT * largest_rad + SEAM_MIN_RAD
 }
 
 /// Phase 0 is the middle of a right contact, phase ½ the middle of a left one. A standing body lifts no foot and does

@@ -12,10 +12,13 @@ use rayon::prelude::*;
 
 use crate::action::idles::idles;
 use crate::action::joined_action::{in_order, joined_idles};
+use crate::cache::Cache;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
+use crate::dedup::comparison_log::ComparisonLog;
 use crate::error::{CompileError, Rejection};
+use crate::ground::head_bends::head_bends;
 use crate::ground::target_body::target_body;
 use crate::input::clip_set::{self, ClipSet};
 use crate::input::manifest::Manifest;
@@ -30,6 +33,7 @@ use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
 use crate::transition::transitions::transitions;
+use crate::transition::unused_corners::note_unused_corners;
 
 /// Memory of each frame of an analysed clip beside its pose, bytes: its signatures, at 30 frames a second.
 const ANALYZED_FRAME_BYTES: usize = 300;
@@ -60,15 +64,30 @@ pub fn compile_files(files: &[PathBuf], observer: &Observer) -> Result<Compiled,
 /// # Errors
 /// Those of [`compile_files`]; also if the manifest contradicts a clip.
 pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Compiled, CompileError> {
-    let ClipSet { clips, rejected } = clip_set::import_clip_set(manifest, observer)?;
+    compiled(manifest, None, observer)
+}
+
+/// As [`compile_manifest`], with results of earlier compilations. The database is the same bytes.
+///
+/// # Errors
+/// Those of [`compile_manifest`].
+pub fn compile_with_cache(manifest: &Manifest, cache: &Cache, observer: &Observer) -> Result<Compiled, CompileError> {
+    compiled(manifest, Some(cache), observer)
+}
+
+fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> Result<Compiled, CompileError> {
+    let ClipSet { clips, rejected } = match cache {
+        Some(cache) => clip_set::clip_set(manifest, &|settings| cache.import(settings), observer)?,
+        None => clip_set::import_clip_set(manifest, observer)?,
+    };
     if clips.is_empty() && !rejected.is_empty() {
         return Err(CompileError::NoExample { rejected, sources: Vec::new() });
     }
-    match compile(clips, &manifest.options, observer) {
+    match database(clips, &manifest.options, cache, observer) {
         Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
         Err(CompileError::NoTransition { file, kind }) => Err(manifest.no_transition(&file, kind)),
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
-        compiled => Ok(Compiled { db: compiled?, rejected }),
+        db => Ok(Compiled { db: db?, rejected }),
     }
 }
 
@@ -110,15 +129,30 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) -> Result<MotionDb, CompileError> {
+    database(clips, options, None, observer)
+}
+
+/// As [`compile`], with a cache of which the clips may come.
+fn database(
+    clips: Vec<HumanClip>,
+    options: &Options,
+    cache: Option<&Cache>,
+    observer: &Observer,
+) -> Result<MotionDb, CompileError> {
     check_memory(&clips)?;
     let mut set = TargetedClips::of(clips).ok_or(CompileError::NoClips)?;
     observer(CompileEvent::Stage("analysis of gaits"));
-    let compared = set.compared();
-    let analyzed = set.analyzed();
+    let (compared, mut analyzed) = match cache {
+        Some(cache) => (set.compared_by(&|clip| cache.compared(clip)), set.analyzed_with(cache)?),
+        None => (set.compared(), set.analyzed()),
+    };
     observer(CompileEvent::Stage("selection"));
     let TargetedClips { clips, body } = set;
+    analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
+    let log = cache.map_or_else(ComparisonLog::default, |cache| cache.comparisons(&clips));
     let parts = by_style(clips, compared, analyzed).into_iter();
-    let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body)).collect();
+    let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body, &log)).collect();
+    cache.into_iter().for_each(|cache| cache.close(&log));
     lend_idle(&mut parts);
     let databases: Result<Vec<MotionDb>, CompileError> =
         parts.into_iter().map(|part| style_database(part, &body, options, observer)).collect();
@@ -137,16 +171,17 @@ fn style_database(
     let cut = idles(&clips, &analyzed, body);
     let adding = windows_that_add(analyzed);
     let named = named_cycles(&clips, &adding, body)?;
-    let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
+    let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);
     observer(CompileEvent::Stage("transitions"));
     let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
+    note_unused_corners(&mut selected.sources, &adding, &actions);
     Ok(MotionDb { style, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
 }
 
 /// Checks that the system gives the memory that the analysis of some clips needs.
 fn check_memory(clips: &[HumanClip]) -> Result<(), CompileError> {
-    let frames = |clip: &HumanClip| clip.frames.len();
+    let frames = HumanClip::frame_count;
     let at_once = rayon::current_num_threads().min(clips.len()) * clips.iter().map(frames).max().unwrap_or(0);
     let bytes = clips.iter().map(frames).sum::<usize>() * ANALYZED_FRAME_BYTES + at_once * ANALYSIS_FRAME_BYTES;
     if memory::has_room(bytes) { Ok(()) } else { Err(CompileError::OutOfMemory { mib: bytes >> 20 }) }
@@ -170,14 +205,30 @@ impl TargetedClips {
 
     /// Each clip in the form in which clips are compared.
     pub(crate) fn compared(&self) -> Vec<ComparedClip> {
-        self.clips.par_iter().map(ComparedClip::of).collect()
+        self.compared_by(&ComparedClip::of)
+    }
+
+    fn compared_by(&self, compared: &(dyn Fn(&HumanClip) -> ComparedClip + Sync)) -> Vec<ComparedClip> {
+        self.clips.par_iter().map(compared).collect()
     }
 
     /// The analysis of each clip, its windows reduced to the best. The clips have no frames afterwards, and of the poses
     /// on the target body only those of rests and movements are left.
     pub(crate) fn analyzed(&mut self) -> Vec<AnalyzedClip> {
-        self.clips.par_iter_mut().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body)).keep_needed()).collect()
+        self.clips.par_iter_mut().map(|clip| analyzed(clip, &self.body)).collect()
     }
+
+    /// As [`Self::analyzed`]; what a cache holds is not made again.
+    fn analyzed_with(&mut self, cache: &Cache) -> Result<Vec<AnalyzedClip>, CompileError> {
+        let body = &self.body;
+        let with_cache = |clip: &mut HumanClip| cache.analyzed(clip, body, |clip| analyzed(clip, body));
+        self.clips.par_iter_mut().map(with_cache).collect()
+    }
+}
+
+/// The analysis of a clip, see [`TargetedClips::analyzed`].
+fn analyzed(clip: &mut HumanClip, body: &HumanBody) -> AnalyzedClip {
+    best_windows(AnalyzedClip::of(clip, body)).keep_needed()
 }
 
 /// The database, if it holds every invariant.

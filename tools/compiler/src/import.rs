@@ -7,7 +7,7 @@
 //!    stated facing (`stated_facing`)
 //! 4. metres, z up ([`crate::retarget::units`])
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses
-//! 6. checks of size, gait and ground (`plausibility`, `level_ground`)
+//! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
 //! 7. parts that are not upright (`posture`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
 use std::io::{BufRead, BufReader, Cursor, Seek};
@@ -19,7 +19,7 @@ use motiondb::files::input_file;
 use rayon::prelude::*;
 
 use crate::checks::lengthwise_path::lengthwise_path;
-use crate::checks::{level_ground, plausibility};
+use crate::checks::{level_ground, plausibility, pose_jumps};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::input::clip_files::ClipFormat;
 use crate::input::clip_settings::ClipSettings;
@@ -215,10 +215,15 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         }
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
+    let jumps = pose_jumps::pose_jumps(&clip, &roles);
+    let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
+    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps);
+    clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
     human.unfit = unfit;
+    human.jumps = jumps.into_iter().map(|jump| jump.frames).collect();
     human.choices.takes_any_posture = settings.takes_any_posture;
     human.choices.mirror = settings.mirror;
     human.choices.transition = settings.transition;

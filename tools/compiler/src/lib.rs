@@ -32,6 +32,8 @@
 //! [`mod@compile`] lists the stages, one line each. In their order: [`input`] → [`read`] → [`rig`] → [`retarget`] with
 //! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`], `action` → [`database`].
 //!
+//! [`cache`] keeps results of import, analysis and comparison for the next compilation.
+//!
 //! Apart from them, [`character`] compiles the skinned figures that bodies wear.
 //!
 //! # Conventions
@@ -40,6 +42,7 @@
 //! of sides are `[left, right]`. (v_f, ω_t, ω_s) are forward speed, turn rate and speed to the left.
 
 mod action;
+pub mod cache;
 pub mod character;
 mod checks;
 pub mod compile;
@@ -63,7 +66,8 @@ pub mod survey;
 mod synthetic;
 mod transition;
 
-pub use compile::{Compiled, compile, compile_files, compile_manifest};
+pub use cache::Cache;
+pub use compile::{Compiled, compile, compile_files, compile_manifest, compile_with_cache};
 pub use error::{CompileError, ManifestKey, Rejection, RejectionReason};
 pub use import::{ImportedClip, import_bytes, import_file, import_with_settings};
 pub use input::{ClipSet, ClipSettings, Manifest, Options, clip_files, foreign_files, import_clip_set, linked_files};

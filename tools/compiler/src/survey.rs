@@ -12,6 +12,7 @@ use serde::{Serialize, Serializer};
 
 use crate::compile::TargetedClips;
 use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::dedup::comparison_log::ComparisonLog;
 use crate::gait::foot_stance::FootStance;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitWindow, WindowGait};
@@ -97,7 +98,8 @@ pub fn survey(clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
     let compared = set.compared();
     let analyzed = set.analyzed();
     let TargetedClips { clips, body } = set;
-    let parts = by_style(clips, compared, analyzed).into_iter().map(|part| part.without_duplicates(&body));
+    let log = ComparisonLog::default();
+    let parts = by_style(clips, compared, analyzed).into_iter().map(|part| part.without_duplicates(&body, &log));
     let records = |part: StylePart| {
         let StylePart { indices, clips, analyzed, .. } = part;
         let record = |((index, clip), found): ((usize, HumanClip), AnalyzedClip)| {

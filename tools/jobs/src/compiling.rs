@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::Construction;
-use motiondb_compiler::{ClipSet, CompileEvent, Compiled, Manifest, Outside, compile_manifest, import_clip_set};
+use motiondb_compiler::{
+    Cache, ClipSet, CompileEvent, Compiled, Manifest, Outside, compile_manifest, compile_with_cache, import_clip_set,
+};
 
 use crate::clip_paths::{check_output, manifest};
 use crate::error::JobError;
@@ -23,6 +25,8 @@ pub struct Overrides {
     pub styles: Vec<String>,
     /// Whether the buffers of glTF files may lie outside their folders; by default they may not.
     pub outside: Outside,
+    /// Folder of the results of earlier compilations; by default none are used.
+    pub cache: Option<PathBuf>,
 }
 
 /// Compiles the clips that `paths` stand for. The database is to be written to `output`, which must be no input.
@@ -45,10 +49,20 @@ pub fn compile(
         manifest.keep_styles(&overrides.styles)?;
     }
     manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
+    let cache = overrides.cache.as_deref().map(open_cache).transpose()?;
     let work = Work::begin(observer, "files", manifest.clips.len());
-    let compiled = compile_manifest(&manifest, &|event| forward(event, observer));
+    let observe = |event: CompileEvent| forward(event, observer);
+    let compiled = match &cache {
+        Some(cache) => compile_with_cache(&manifest, cache, &observe),
+        None => compile_manifest(&manifest, &observe),
+    };
     work.end();
     Ok(compiled?)
+}
+
+/// Opens the cache in a folder.
+fn open_cache(folder: &Path) -> Result<Cache, JobError> {
+    Cache::open(folder).map_err(|source| JobError::Unwritable { path: folder.to_owned(), source })
 }
 
 /// Writes a database, as a stage of its own; returns the checksum of its file.

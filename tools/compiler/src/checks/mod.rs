@@ -5,8 +5,9 @@
 //! reasons of rejection, all typed.
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
-//! `lengthwise_path` whether it moves along its own length.
+//! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps.
 
 pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;
 pub(crate) mod plausibility;
+pub(crate) mod pose_jumps;

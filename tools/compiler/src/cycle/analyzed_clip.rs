@@ -7,18 +7,22 @@
 
 use std::ops::Range;
 
+use glam::DQuat;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
+use serde::{Deserialize, Serialize};
 
+use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
 use crate::cycle::mean_stride::{frames_beside, mean_stride};
-use crate::cycle::steady_cycle::SteadyCycle;
+use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::gait::foot_stance::FootStance;
 use crate::gait::movements::{Movement, MovementKind, frames_beside_cut, movements};
 use crate::gait::pauses::Pause;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitAnalysis, GaitWindow, WindowGait, searched_frames};
 use crate::ground::grounded_clip::GroundedClip;
+use crate::ground::head_bends::bend_head;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::posture::LowPart;
 
@@ -26,6 +30,7 @@ use crate::retarget::posture::LowPart;
 const LOW_PART_MIN_S: f64 = 0.5;
 
 /// A clip on the target body, and its steady windows that may become examples.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct AnalyzedClip {
     /// The clip on the target body; after [`Self::keep_needed`] some of its poses.
     pub(crate) grounded: GroundedClip<'static>,
@@ -39,6 +44,8 @@ pub(crate) struct AnalyzedClip {
     pub(crate) stances: [Vec<FootStance>; 2],
     /// Where transitions may lie, in order of time; of a loop within its middle round.
     pub(crate) movements: Vec<Movement>,
+    /// Sharp turns of the walking body that no steady window shows, in order of time.
+    pub(crate) corners: Vec<Corner>,
     /// Diagnostics of the clip as a whole.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Steady windows that give no example beside others.
@@ -46,7 +53,7 @@ pub(crate) struct AnalyzedClip {
 }
 
 /// Counts of steady windows of a clip that give no example beside others.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub(crate) struct LeftOutWindows {
     /// Windows whose feet slide or are hardly planted.
     pub(crate) doubtful: usize,
@@ -94,17 +101,18 @@ impl AnalyzedClip {
             .for_each(|window| window.flaws += standing_flaws);
         let stances = performer.gait.clearest_stances().clone();
         let movements = clip_movements(clip, &performer.gait, &grounded);
+        let corners = clip_corners(clip, &performer.gait, &times, grounded.loop_frames());
         let rests = performer.gait.rests;
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
             let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out };
+            return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
         let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
         let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
-        Self { grounded, frame_count, windows, rests, stances, movements, diagnostics, left_out }
+        Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
 
     /// The frames in which something is searched: all, or the middle round of a loop.
@@ -126,6 +134,15 @@ impl AnalyzedClip {
         let needed = stands.chain(rests).map(with_margin).chain(moves).collect();
         self.grounded.keep_frames(needed);
         self
+    }
+
+    /// Bends the head in all poses. What is known of the clip does not depend on it.
+    pub(crate) fn bend_head(&mut self, bend: DQuat) {
+        let cycles = self.windows.iter_mut().filter_map(|window| match &mut window.motion {
+            SteadyMotion::Steps(cycle) => Some(&mut cycle.rows),
+            SteadyMotion::Stands(_) => None,
+        });
+        cycles.flatten().chain(self.grounded.poses.own_mut()).for_each(|pose| bend_head(pose, bend));
     }
 
     /// Duration from the first frame to the last, s.
@@ -161,7 +178,8 @@ fn beside(frames: Range<usize>, margin: usize) -> Range<usize> {
     frames.start.saturating_sub(margin)..frames.end + margin
 }
 
-/// The movements of a clip that may be transitions: the body is upright, and they are of the kind that a manifest states.
+/// The movements of a clip that may be transitions: the body is upright, its pose does not jump, and they are of the
+/// kind that a manifest states.
 fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip) -> Vec<Movement> {
     if clip.unfit.is_some() {
         return Vec::new();
@@ -176,14 +194,14 @@ fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip
     };
     let pauses: Vec<Pause> = gait.pauses.iter().filter(|pause| !is_in_strides(pause)).cloned().collect();
     let mut found = movements(&pauses, &gait.strikes, grounded.frame_rate_hz, &frames);
-    let is_low = |movement: &Movement| {
+    let left_out = clip.left_out_frames();
+    let is_left_out = |movement: &Movement| {
         let [first, last] = movement.frames();
-        let is_part =
-            |part: &LowPart| first - before < part.frames.end as f64 && part.frames.start as f64 <= last - before;
-        clip.left_out_parts().iter().any(is_part)
+        let is_part = |part: &Range<usize>| first - before < part.end as f64 && part.start as f64 <= last - before;
+        left_out.iter().any(is_part)
     };
     let is_stated = |movement: &Movement| stated.is_none_or(|kind| MovementKind::of(kind) == movement.kind);
-    found.retain(|movement| is_stated(movement) && !is_low(movement));
+    found.retain(|movement| is_stated(movement) && !is_left_out(movement));
     found
 }
 
@@ -197,6 +215,27 @@ fn not_upright(clip: &HumanClip, frame_count: usize) -> Option<Unfit> {
 fn longest_part(parts: &[LowPart]) -> Option<&LowPart> {
     // The first of the longest: `max_by_key` alone would take the last.
     parts.iter().rev().max_by_key(|part| part.frames.len())
+}
+
+/// The corners of a clip that no steady window shows; none in parts that are left out.
+fn clip_corners(clip: &HumanClip, gait: &GaitAnalysis, times: &ClipTimes, loop_frames: Option<usize>) -> Vec<Corner> {
+    if clip.unfit.is_some() {
+        return Vec::new();
+    }
+    let before = loop_frames.unwrap_or(0);
+    let frames = searched_frames(gait.path.hips_m.len(), loop_frames);
+    let left_out = clip.left_out_frames();
+    let steady_s = gait.steady_parts().into_iter().map(|frames| frames.map(|frame| times.in_file_s(frame)));
+    let steady_s: Vec<[f64; 2]> = steady_s.collect();
+    let corner = |turn: SharpTurn| {
+        let frames = turn.frames.start - before..turn.frames.end - before;
+        let is_left_out = left_out.iter().any(|part| frames.start < part.end && part.start < frames.end);
+        let window_s = [frames.start, frames.end - 1].map(|frame| times.in_file_s(frame as f64));
+        let corner = Corner { window_s, turn_rad: turn.turn_rad };
+        let is_steady = steady_s.iter().map(|part_s| corner.share_within(*part_s)).sum::<f64>() >= SHOWN_SHARE;
+        (!is_left_out && !is_steady).then_some(corner)
+    };
+    sharp_turns(&gait.path, clip.frame_rate_hz, &frames).into_iter().filter_map(corner).collect()
 }
 
 /// The frames of a clip in its file.

@@ -1,12 +1,13 @@
 //! One closed cycle of a gait, sampled at 64 uniform phases: what an example is made of.
 
 use motiondb::motion::PhaseMap;
+use serde::{Deserialize, Serialize};
 
 use crate::ground::root_arc::Rates;
 use crate::retarget::human_clip::HumanPose;
 
 /// One closed cycle; phase 0 is right mid-stance. Root frame: x forward, y left, z up, metres.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GaitCycle {
     /// Poses at uniform phases, in the root frame.
     pub rows: Vec<HumanPose>,

@@ -5,9 +5,11 @@
 //! metres).
 //!
 //! Read `analyzed_clip` (the chapter's steps), then `gait_cycle`, `mean_stride` with `loop_closure`, `standing_cycle`;
-//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `flaws`, `rate_cells`.
+//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `flaws`, `rate_cells`;
+//! and `corners`, which no cycle shows.
 
 pub(crate) mod analyzed_clip;
+pub(crate) mod corners;
 pub(crate) mod flaws;
 pub(crate) mod foot_slide;
 pub(crate) mod gait_cycle;

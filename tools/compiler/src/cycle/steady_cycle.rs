@@ -8,6 +8,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Unfit};
+use motiondb::validate::is_open;
+use serde::{Deserialize, Serialize};
 
 use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
 use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
@@ -17,7 +19,7 @@ use crate::cycle::rest::Rest;
 use crate::gait::stride::Stride;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::Rates;
-use crate::retarget::human_clip::HumanBody;
+use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// Least height of the pelvis of a body that walks, crouched or on hands, m.
 const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
@@ -27,6 +29,7 @@ const PELVIS_HEIGHT_MAX_LEGS: f64 = 3.0;
 const PELVIS_ASIDE_MAX_LEGS: f64 = 2.0;
 
 /// A steady window of a clip, as its example shows it.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct SteadyCycle {
     /// First and last second of the window, from the file's first frame.
     pub(crate) window_s: [f64; 2],
@@ -41,6 +44,7 @@ pub(crate) struct SteadyCycle {
 }
 
 /// What a body does in a steady window.
+#[derive(Serialize, Deserialize)]
 pub(crate) enum SteadyMotion {
     /// It steps: the mean stride.
     Steps(Box<GaitCycle>),
@@ -64,6 +68,10 @@ impl SteadyCycle {
         let slide = foot_slide(&cycle, body);
         if leaves_root(cycle.rows.iter().map(|row| row.pelvis_m), body) {
             return Err(Unfit::PelvisOutOfReach);
+        }
+        let [seam_rad, largest_rad] = turns_rad(&cycle);
+        if is_open(seam_rad, largest_rad) {
+            return Err(Unfit::CycleOpen { seam_rad, largest_rad });
         }
         if let Some(unfit) = unfit_feet(&cycle, body, growth, &slide) {
             return Err(unfit);
@@ -120,6 +128,17 @@ impl SteadyCycle {
     }
 }
 
+/// Greatest turn of a joint from the last row to the first, and from row to row within the cycle, rad.
+fn turns_rad(cycle: &GaitCycle) -> [f32; 2] {
+    let turn_rad = |(from, to): (&HumanPose, &HumanPose)| {
+        let angles = from.rotations.iter().zip(&to.rotations).map(|(from, to)| from.angle_between(*to));
+        angles.fold(0.0, f64::max) as f32
+    };
+    let rows = &cycle.rows;
+    let largest_rad = rows.iter().zip(&rows[1..]).map(turn_rad).fold(0.0, f32::max);
+    [turn_rad((&rows[rows.len() - 1], &rows[0])), largest_rad]
+}
+
 /// Whether a pelvis, in the root frame, lies too far aside, too high or in the ground.
 fn leaves_root(mut pelvis_m: impl Iterator<Item = DVec3>, body: &HumanBody) -> bool {
     let leg_m = body.leg_length_m();
@@ -128,4 +147,28 @@ fn leaves_root(mut pelvis_m: impl Iterator<Item = DVec3>, body: &HumanBody) -> b
         position_m.truncate().length() < PELVIS_ASIDE_MAX_LEGS * leg_m && heights_m.contains(&position_m.z)
     };
     !pelvis_m.all(is_near)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+    use motiondb::body::Joint;
+
+    use super::*;
+    use crate::synthetic::{self, SyntheticWalk, cycle_of};
+
+    #[test]
+    fn a_cycle_whose_end_jumps_to_its_beginning_is_open() {
+        let is_open_of = |cycle: &GaitCycle| {
+            let [seam_rad, largest_rad] = turns_rad(cycle);
+            is_open(seam_rad, largest_rad)
+        };
+        let mut cycle = cycle_of(&synthetic::walk("walk", SyntheticWalk::default()));
+        assert!(!is_open_of(&cycle));
+        for (row, pose) in cycle.rows.iter_mut().enumerate() {
+            let spine = &mut pose.rotations[Joint::SpineUpper.index()];
+            *spine = DQuat::from_rotation_z(0.02 * row as f64) * *spine;
+        }
+        assert!(is_open_of(&cycle));
+    }
 }

@@ -1,13 +1,15 @@
 //! Alignment of two clips of one take: the map from the time of one clip to the time of the other. Seconds from the
 //! first frame of each.
 
+use serde::{Deserialize, Serialize};
+
 use crate::ground::root_arc::Rates;
 
 /// Relative difference below which two frame times are equal: 23.976 and 24 frames a second, 29.97 and 30.
 const SAME_PACE: f64 = 0.01;
 
 /// Map of a clip's time t to another clip's time `start_s + pace · t`, at which both show the same pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Alignment {
     /// One clip is the other's mirror image.
     pub mirrored: bool,

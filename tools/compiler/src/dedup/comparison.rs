@@ -10,6 +10,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::dedup::alignment::Alignment;
 use crate::dedup::correlation::{Series, squared_unlikeness};
 use crate::dedup::signature::{self, FACING, RATE_HZ, Row};
@@ -36,7 +38,7 @@ const COUNT_TOLERANCE: f64 = 0.1;
 const TIME_TOLERANCE: f64 = 0.05;
 
 /// How two clips are one take.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Match {
     /// The second clip on the first.
     pub(crate) alignment: Alignment,
@@ -55,9 +57,13 @@ pub(crate) struct ComparedClip {
 impl ComparedClip {
     /// Computes the signatures of a clip.
     pub(crate) fn of(clip: &HumanClip) -> Self {
-        let rows = signature::rows(clip);
-        let signatures = [Series::of(&rows), Series::of(&signature::mirrored(&rows))];
-        Self { frame_count: clip.frames.len(), frame_rate_hz: clip.frame_rate_hz, signatures }
+        Self::of_rows(clip.frames.len(), clip.frame_rate_hz, &signature::rows(clip))
+    }
+
+    /// A clip whose signature is known.
+    pub(crate) fn of_rows(frame_count: usize, frame_rate_hz: f64, rows: &[Row]) -> Self {
+        let signatures = [Series::of(rows), Series::of(&signature::mirrored(rows))];
+        Self { frame_count, frame_rate_hz, signatures }
     }
 
     /// Paces of another clip on this one at which both have the same frames, where their stated frame times differ.

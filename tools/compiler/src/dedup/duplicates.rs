@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::dedup::alignment::Alignment;
 use crate::dedup::comparison::{ComparedClip, compare};
+use crate::dedup::comparison_log::ComparisonLog;
 use crate::dedup::groups::{GROUPS_MAX, Groups};
 use crate::dedup::shared_windows::{self, Giver, Givers};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
@@ -29,7 +30,8 @@ pub struct Pair {
     pub unlikeness: f64,
 }
 
-/// Drops from each clip the windows that a better copy of its take gives, and reports it.
+/// Drops from each clip the windows that a better copy of its take gives, and reports it. Comparisons that `log` knows
+/// are not made again.
 ///
 /// # Steps
 /// 1. Find the groups of one take by motion signatures, the longest clips first.
@@ -40,11 +42,14 @@ pub(crate) fn drop_duplicates(
     compared: &[ComparedClip],
     analyzed: &mut [AnalyzedClip],
     body: &HumanBody,
+    log: &ComparisonLog,
 ) {
     let gives_example = |clip: usize| !analyzed[clip].windows.is_empty();
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
+    let logged: Vec<Option<usize>> = clips.iter().map(|clip| log.index(clip)).collect();
     let compare = |leader: usize, clip: usize| {
-        if may_pair(leader, clip) { compare(&compared[leader], &compared[clip]) } else { None }
+        let of_pair = || compare(&compared[leader], &compared[clip]);
+        if may_pair(leader, clip) { log.compared([logged[leader], logged[clip]], of_pair) } else { None }
     };
     let groups = Groups::find(&order(analyzed), gives_example, compare);
     let givers = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
@@ -210,7 +215,7 @@ mod tests {
         let mut analyzed: Vec<AnalyzedClip> =
             clips.to_vec().par_iter_mut().map(|clip| AnalyzedClip::of(clip, &body)).collect();
         let compared: Vec<ComparedClip> = clips.iter().map(ComparedClip::of).collect();
-        drop_duplicates(clips, &compared, &mut analyzed, &body);
+        drop_duplicates(clips, &compared, &mut analyzed, &body, &ComparisonLog::default());
         let start_s = |found: &AnalyzedClip| found.windows.iter().map(|window| window.window_s[0]).collect();
         analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }

@@ -10,6 +10,7 @@
 
 pub(crate) mod alignment;
 pub(crate) mod comparison;
+pub(crate) mod comparison_log;
 pub(crate) mod correlation;
 pub(crate) mod duplicates;
 pub(crate) mod frame_times;

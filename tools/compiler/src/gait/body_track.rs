@@ -24,6 +24,15 @@ pub(crate) struct BodyTrack<'a> {
     pub(crate) facing_rad: Vec<f64>,
 }
 
+/// Position and facing of a body over a clip.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BodyPath {
+    /// Midpoint of the hips on the ground at each frame, m.
+    pub(crate) hips_m: Vec<DVec2>,
+    /// Facing at each frame, without jumps of 2π, rad.
+    pub(crate) facing_rad: Vec<f64>,
+}
+
 impl<'a> BodyTrack<'a> {
     /// The track of a clip. `see` gets the joints of each frame; they are not kept.
     pub(crate) fn of(clip: &'a GroundedClip<'a>, body: &'a HumanBody, mut see: impl FnMut(&HumanJoints)) -> Self {

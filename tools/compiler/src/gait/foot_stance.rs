@@ -5,6 +5,7 @@
 //! them are one. Frames of the clip (may lie between frames), metres, seconds.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::frame_runs::frame_runs;
 use crate::gait::contact_ends::{ContactLimits, ContactPoints, frame_of, ticks};
@@ -13,7 +14,7 @@ use crate::gait::contact_ends::{ContactLimits, ContactPoints, frame_of, ticks};
 const LIFT_MIN_S: f64 = 0.1;
 
 /// One contact of a foot with the ground, from heel strike to toe-off.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FootStance {
     /// Frame of the heel strike, or of the first touch of any part of the foot; −∞ where it lies before the clip.
     pub strike_frame: f64,

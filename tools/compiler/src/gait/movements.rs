@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use motiondb::motion::ActionKind;
+use serde::{Deserialize, Serialize};
 
 use crate::gait::body_track::BodyTrack;
 use crate::gait::foot_stance::FootStance;
@@ -48,7 +49,7 @@ pub(crate) fn frames_beside_cut(frame_rate_hz: f64) -> usize {
 }
 
 /// What a movement leads from and to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum MovementKind {
     /// From a pause to steps.
     Start,
@@ -94,7 +95,7 @@ impl MovementKind {
 }
 
 /// A part of a clip that may be a transition.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Movement {
     /// What it leads from and to.
     pub(crate) kind: MovementKind,

@@ -38,7 +38,7 @@ impl PerformerGait {
     /// Analyses the gait of a clip.
     pub fn of(clip: &HumanClip) -> Self {
         let (body, grounded) = own_clip(clip);
-        let gait = analyze_gait(&grounded, &body, clip.left_out_parts());
+        let gait = analyze_gait(&grounded, &body, &clip.left_out_frames());
         Self { frame_count: grounded.frame_count(), loop_frames: grounded.loop_frames(), gait, body }
     }
 

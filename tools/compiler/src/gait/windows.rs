@@ -13,7 +13,7 @@ use motiondb::diagnostic::Unfit;
 use motiondb::statistics::percentile;
 
 use crate::frame_runs::frame_runs;
-use crate::gait::body_track::BodyTrack;
+use crate::gait::body_track::{BodyPath, BodyTrack};
 use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
 use crate::gait::movements::{Strike, strikes};
@@ -25,7 +25,6 @@ use crate::gait::stride_alignment::aligned_strides;
 use crate::gait::unsteady_strides::why_unsteady;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
-use crate::retarget::posture::LowPart;
 
 /// Lenience of each reading: multiples of the contact limits of the definition.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
@@ -68,6 +67,8 @@ pub struct GaitAnalysis {
     pub(crate) pauses: Vec<Pause>,
     /// Touches of the ground, in order of time; of a loop within its middle round.
     pub(crate) strikes: Vec<Strike>,
+    /// Where the body is in each frame of the analysed clip.
+    pub(crate) path: BodyPath,
     /// Why no window steps although the body makes steps; only of a clip whose windows all stand.
     pub lost_steps: Option<Unfit>,
 }
@@ -75,8 +76,8 @@ pub struct GaitAnalysis {
 /// Finds contacts, landmarks and steady windows of a clip.
 ///
 /// The reading that shows the most strides counts, of several the strictest: the feet of noisy captures may slide and
-/// lift more, as little as it takes. Nothing in the parts left out is a stride or a rest.
-pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[LowPart]) -> GaitAnalysis {
+/// lift more, as little as it takes. No frame that is left out is in a stride or a rest.
+pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Range<usize>]) -> GaitAnalysis {
     let mut left = FootPoints::default();
     let track = BodyTrack::of(clip, body, |joints| left.push(joints, body, 0));
     // One foot after the other: the points of a long clip take much memory.
@@ -98,15 +99,18 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());
     let lost_steps = lost_steps(&windows, &steps[0], &frames);
-    let mut found = GaitAnalysis { stances, windows, rests, pauses: Vec::new(), strikes: Vec::new(), lost_steps };
-    found.pauses = pauses(&track, found.clearest_stances(), &frames);
-    found.strikes = strikes(found.clearest_stances(), &track, &frames);
+    let (pauses_of, strikes_of) = (pauses, strikes);
+    let (pauses, strikes) = (Vec::new(), Vec::new());
+    let mut found = GaitAnalysis { stances, windows, rests, pauses, strikes, path: BodyPath::default(), lost_steps };
+    found.pauses = pauses_of(&track, found.clearest_stances(), &frames);
+    found.strikes = strikes_of(found.clearest_stances(), &track, &frames);
+    found.path = BodyPath { hips_m: track.hips_m, facing_rad: track.facing_rad };
     found
 }
 
 /// Frames of a clip of which no window is made.
 struct LeftOutFrames<'a> {
-    parts: &'a [LowPart],
+    parts: &'a [Range<usize>],
     /// Frames of a round, of a loop.
     loop_frames: Option<usize>,
 }
@@ -114,7 +118,7 @@ struct LeftOutFrames<'a> {
 impl LeftOutFrames<'_> {
     fn contains(&self, frame: usize) -> bool {
         let frame = self.loop_frames.map_or(frame, |round| frame % round);
-        self.parts.iter().any(|part| part.frames.contains(&frame))
+        self.parts.iter().any(|part| part.contains(&frame))
     }
 
     fn without_strides(&self, mut steps: ClipSteps) -> ClipSteps {

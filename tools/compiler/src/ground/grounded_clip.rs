@@ -5,13 +5,15 @@
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::ground::grounded_poses::GroundedPoses;
 use crate::ground::loop_rounds::LoopRounds;
 use crate::ground::pose_mean::pose_between;
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// A clip on a target body. Where it has poses of its own, the rotations of successive poses lie in one hemisphere.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GroundedClip<'a> {
     /// Frames per second.
     pub frame_rate_hz: f64,

@@ -3,26 +3,28 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::retarget::human_clip::HumanPose;
 
 /// Poses of successive frames.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum GroundedPoses<'a> {
     /// Poses of their own.
     Own(Vec<HumanPose>),
-    /// The poses of a clip at other positions.
+    /// Some poses of a clip; the others are freed.
+    Parts(PartsOfPoses),
+    /// The poses of a clip at other positions. Not stored, so it comes last: other variants keep their numbers.
+    #[serde(skip)]
     Moved {
         poses: &'a [HumanPose],
         /// World position of the pelvis in each frame, m.
         pelvis_m: Vec<DVec3>,
     },
-    /// Some poses of a clip; the others are freed.
-    Parts(PartsOfPoses),
 }
 
 /// Some poses of a clip, with the frame numbers of the whole.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct PartsOfPoses {
     /// Number of frames of the whole.
     count: usize,
@@ -58,6 +60,16 @@ impl GroundedPoses<'_> {
             let part = |range: &Range<usize>| (range.start, poses[range.clone()].to_vec());
             *self = Self::Parts(PartsOfPoses { count: poses.len(), parts: ranges.iter().map(part).collect() });
         }
+    }
+
+    /// Every pose of its own.
+    pub(crate) fn own_mut(&mut self) -> impl Iterator<Item = &mut HumanPose> {
+        let (own, parts) = match self {
+            Self::Own(poses) => (&mut poses[..], &mut [][..]),
+            Self::Moved { .. } => (&mut [][..], &mut [][..]),
+            Self::Parts(kept) => (&mut [][..], &mut kept.parts[..]),
+        };
+        own.iter_mut().chain(parts.iter_mut().flat_map(|(_, poses)| poses))
     }
 
     /// Position of the pelvis in each frame that has a pose, m.

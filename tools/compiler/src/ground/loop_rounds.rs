@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
+use serde::{Deserialize, Serialize};
 
 use crate::ground::grounded_poses::GroundedPoses;
 use crate::ground::rotations::{align_hemispheres, flip, ground_rotation, rotation_vector};
@@ -11,7 +12,7 @@ use crate::retarget::human_clip::{HumanBody, HumanPose};
 const ROUNDS: usize = 3;
 
 /// How the poses of three rounds follow from those of one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct LoopRounds {
     /// Frames of one round.
     pub(crate) round: usize,
@@ -61,7 +62,7 @@ impl LoopRounds {
 }
 
 /// Displacement of the body by one round of a loop, and the gap that the round leaves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct LoopSeam {
     /// Pelvis of the first pose on the ground, m.
     start_m: DVec3,

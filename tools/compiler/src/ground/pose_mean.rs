@@ -100,7 +100,7 @@ fn monotone([before, from, to, after]: [f64; 4], share: f64) -> f64 {
 }
 
 /// The normalised weighted sum of quaternions, each taken in the hemisphere of the first.
-fn mean_rotation(rotations: impl Iterator<Item = (f64, DQuat)>) -> DQuat {
+pub(crate) fn mean_rotation(rotations: impl Iterator<Item = (f64, DQuat)>) -> DQuat {
     let mut sum: Option<(DQuat, DQuat)> = None;
     for (weight, rotation) in rotations {
         let (reference, so_far) = sum.unwrap_or((rotation, DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0)));

@@ -13,6 +13,7 @@
 use glam::{DMat2, DQuat, DVec2};
 use motiondb::motion::Parameters;
 use motiondb::statistics::mean;
+use serde::{Deserialize, Serialize};
 
 use crate::ground::rotations::ground_rotation;
 use crate::retarget::human_clip::HumanPose;
@@ -23,7 +24,7 @@ const FIT_ROUNDS: usize = 4;
 const SMALL_ANGLE_RAD: f64 = 1e-4;
 
 /// (v_f, ω_t, ω_s) in f64, as the analysis of clips needs them.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
     /// Speed along the facing v_f, m/s; negative backward.
     pub speed_mps: f64,

@@ -32,14 +32,22 @@ impl ClipSet {
     }
 }
 
+/// The import of the clips of one file.
+pub(crate) type Importer<'a> = dyn Fn(&ClipSettings) -> Result<Vec<ImportedClip>, Rejection> + Sync + 'a;
+
 /// Imports all clips of a manifest. A file that cannot be used is rejected and does not stop the others.
 ///
 /// # Errors
 /// [`CompileError::InvalidManifest`] if a clip contradicts the manifest; [`CompileError::ClipUnread`].
 pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipSet, CompileError> {
+    clip_set(manifest, &import::import_with_settings, observer)
+}
+
+/// As [`import_clip_set`], through an importer.
+pub(crate) fn clip_set(manifest: &Manifest, importer: &Importer, observer: &Observer) -> Result<ClipSet, CompileError> {
     observer(CompileEvent::Stage("import"));
     let import = |settings: &ClipSettings| {
-        let imported = import::import_with_settings(settings);
+        let imported = importer(settings);
         observer(CompileEvent::Imported(&settings.path));
         imported
     };
@@ -74,9 +82,12 @@ pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipS
 /// Neither folders nor the order of arguments change the result: files of equal names are sorted by their style and
 /// their content. Clips of one name in several styles have their style before it.
 pub(crate) fn sort(clips: &mut [HumanClip]) {
-    let names =
-        |clip: &HumanClip| [&clip.source.file, &clip.source.clip, &clip.name, &clip.style].map(String::to_owned);
-    clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.compare_content(b)));
+    fn names(clip: &HumanClip) -> [&str; 4] {
+        [&clip.source.file, &clip.source.clip, &clip.name, &clip.style]
+    }
+    clips.sort_by(|a, b| names(a).cmp(&names(b)));
+    let of_one_name = clips.chunk_by_mut(|a, b| names(a) == names(b));
+    of_one_name.filter(|clips| clips.len() > 1).for_each(|clips| clips.sort_by_cached_key(HumanClip::content_order));
     let mut styles_of_names: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for clip in clips.iter() {
         styles_of_names.entry(clip.name.clone()).or_default().insert(clip.style.clone());

@@ -2,9 +2,11 @@
 //!
 //! 1. File names of published sets: `Angry_FW.bvh` beside other movements of the same style (100STYLE),
 //!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
-//! 2. Folders side by side that each hold a walk, by its name, and are named by words without digits. Two of them hold
-//!    a walk of the same name, apart from the folder's, or the name of one is a known manner of moving. So folders of
-//!    subjects, takes and movements are no styles.
+//! 2. Folders side by side that each hold a walk, by its name, and are named by words without digits. The name of one is
+//!    a known manner of moving. So folders of subjects, sexes, takes and movements are no styles.
+//!
+//! A style is a manner in which anybody can move: old, drunk, happy. Who moves is none, a woman, a child or an actor:
+//! other bodies of another sex are no reason for an agent to move otherwise.
 //!
 //! Names of styles are in lower case.
 
@@ -18,56 +20,98 @@ const MOVEMENT_CODES: [&str; 10] = ["bw", "br", "fw", "fr", "id", "sw", "sr", "t
 /// The styles of Xia et al. 2015.
 const XIA_STYLES: [&str; 8] = ["angry", "childlike", "depressed", "neutral", "old", "proud", "sexy", "strutting"];
 /// Words for manners of moving that folders are named by: those of the published sets, and near ones.
-const MANNERS: [&str; 40] = [
+const MANNERS: [&str; 75] = [
     "active",
+    "aeroplane",
     "aged",
+    "akimbo",
     "angry",
+    "balance",
+    "brisk",
     "casual",
-    "child",
+    "cat",
+    "cheerful",
+    "chicken",
     "childish",
     "childlike",
+    "chimpira",
+    "cool",
+    "crouched",
     "depressed",
+    "dinosaur",
     "drunk",
+    "elated",
     "elderly",
     "excited",
     "exhausted",
-    "female",
     "feminine",
+    "flapping",
+    "giant",
+    "graceful",
     "happy",
     "heavy",
+    "heavyset",
     "hurried",
     "injured",
     "joyful",
+    "kangaroo",
+    "lame",
+    "limp",
     "limping",
-    "male",
+    "lively",
+    "march",
+    "marching",
     "masculine",
+    "morris",
+    "musical",
     "neutral",
     "normal",
+    "not-confident",
     "old",
+    "penguin",
     "proud",
+    "quail",
     "relaxed",
+    "roadrunner",
     "robot",
+    "rocket",
+    "rushed",
     "sad",
+    "scared",
     "sexy",
     "shy",
+    "sleepy",
     "sneaky",
+    "star",
+    "stiff",
     "strutting",
+    "stumbling",
+    "superman",
+    "swagger",
+    "tiptoe",
     "tired",
+    "wary",
     "weak",
-    "women",
-    "men",
+    "wild",
     "young",
     "youthful",
     "zombie",
 ];
-/// Words for movements, directions, speeds and parts of a collection: folders of these names hold no style.
-const NOT_STYLES: [&str; 50] = [
+/// Words for movements, directions, speeds, parts of a collection, and for who moves: folders of these names hold no style.
+const NOT_STYLES: [&str; 73] = [
+    "actor",
+    "actors",
+    "actress",
     "animation",
     "animations",
     "anims",
     "back",
     "backward",
+    "boy",
+    "boys",
     "bvh",
+    "child",
+    "children",
     "circle",
     "clips",
     "copy",
@@ -75,9 +119,13 @@ const NOT_STYLES: [&str; 50] = [
     "dataset",
     "fast",
     "fbx",
+    "female",
+    "females",
     "forward",
     "gait",
     "gaits",
+    "girl",
+    "girls",
     "glb",
     "gltf",
     "idle",
@@ -85,13 +133,22 @@ const NOT_STYLES: [&str; 50] = [
     "jog",
     "jogs",
     "jump",
+    "ladies",
+    "lady",
     "left",
     "locomotion",
+    "male",
+    "males",
+    "man",
+    "men",
     "misc",
     "mocap",
     "motion",
     "motions",
     "other",
+    "people",
+    "performer",
+    "person",
     "raw",
     "right",
     "run",
@@ -104,6 +161,7 @@ const NOT_STYLES: [&str; 50] = [
     "step",
     "stop",
     "strafe",
+    "subject",
     "test",
     "train",
     "turn",
@@ -112,6 +170,8 @@ const NOT_STYLES: [&str; 50] = [
     "walk",
     "walking",
     "walks",
+    "woman",
+    "women",
 ];
 /// Styles that serve agents without a style where no clip is without one, the first that the set has.
 pub(crate) const NEUTRAL_STYLES: [&str; 2] = ["neutral", "normal"];
@@ -166,25 +226,19 @@ struct StyleFolders<'a> {
 
 impl<'a> StyleFolders<'a> {
     fn of(paths: &[&'a Path]) -> Self {
-        // Folders side by side, and the walks in each, without the folder's name.
-        let mut siblings: BTreeMap<&Path, BTreeMap<&Path, BTreeSet<String>>> = BTreeMap::new();
+        // Folders side by side that hold a walk.
+        let mut siblings: BTreeMap<&Path, BTreeSet<&Path>> = BTreeMap::new();
         for path in paths {
             for folder in path.ancestors().skip(1) {
                 let (Some(parent), Some(name)) = (folder.parent(), named(folder)) else { continue };
-                let walk = without(&stem(path), &name);
-                if is_style_word(&name) && is_walk(&walk) {
-                    siblings.entry(parent).or_default().entry(folder).or_default().insert(walk);
+                if is_style_word(&name) && is_walk(&without(&stem(path), &name)) {
+                    siblings.entry(parent).or_default().insert(folder);
                 }
             }
         }
-        let are_styles = |folders: &BTreeMap<&Path, BTreeSet<String>>| {
-            let mut walks = BTreeSet::new();
-            let is_shared = folders.values().flatten().any(|walk| !walks.insert(walk));
-            let is_manner = |folder: &&Path| named(folder).is_some_and(|name| MANNERS.contains(&name.as_str()));
-            folders.len() > 1 && (is_shared || folders.keys().any(is_manner))
-        };
-        let found = siblings.into_values().filter(are_styles);
-        Self { folders: found.flat_map(BTreeMap::into_keys).collect() }
+        let is_manner = |folder: &&Path| named(folder).is_some_and(|name| MANNERS.contains(&name.as_str()));
+        let are_styles = |folders: &BTreeSet<&Path>| folders.len() > 1 && folders.iter().any(is_manner);
+        Self { folders: siblings.into_values().filter(are_styles).flatten().collect() }
     }
 
     /// The name of the innermost such folder around a clip.
@@ -260,6 +314,21 @@ mod tests {
         check(&[("vendor/walk1.bvh", ""), ("studio/ezgi_walk.bvh", "")]);
         check(&[("elderly/walk.bvh", ""), ("elderly/walk_fast.bvh", "")]);
         check(&[("elderly/walk.bvh", ""), ("angry/run.bvh", "")]);
+    }
+
+    #[test]
+    fn who_moves_is_no_style() {
+        check(&[("men/walk.bvh", ""), ("women/walk.bvh", "")]);
+        check(&[("Male/walk_fast.bvh", ""), ("Female/walk_fast.bvh", "")]);
+        check(&[("anna/walk.bvh", ""), ("peter/walk.bvh", "")]);
+        check(&[("adults/walk.bvh", ""), ("children/walk.bvh", "")]);
+        check(&[
+            ("women/old/walk.bvh", "old"),
+            ("women/happy/walk.bvh", "happy"),
+            ("men/old/walk.bvh", "old"),
+            ("men/happy/walk.bvh", "happy"),
+        ]);
+        check(&[("masculine/walk.bvh", "masculine"), ("feminine/walk.bvh", "feminine"), ("women/walk.bvh", "")]);
     }
 
     #[test]

@@ -2,17 +2,20 @@
 //!
 //! Metres, z up, right-handed, f64. A body's frame: x forward, y left. Pairs of sides are `[left, right]`.
 
-use std::cmp::Ordering;
+use std::ops::Range;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::Unfit;
 use motiondb::motion::{ActionKind, SourceRecord};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
 
 use crate::retarget::posture::LowPart;
+use crate::rig::rig_head::RigHead;
 
 /// A clip after import.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct HumanClip {
     /// Name of the example: the file's stem; of one clip of several, with the clip's name appended.
     pub name: String,
@@ -24,23 +27,44 @@ pub struct HumanClip {
     pub frame_rate_hz: f64,
     /// Bones of the performer.
     pub body: HumanBody,
-    /// One pose for each frame.
+    /// One pose for each frame; none where `stored` stands for them.
+    #[serde(skip)]
     pub frames: Vec<HumanPose>,
     /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in
     /// place; none of a clip that travels.
     pub in_place_mps: Option<DVec2>,
     /// Parts in which the body is not upright, in order of time.
     pub low_parts: Vec<LowPart>,
+    /// Frames in which the pose jumps, in order of time.
+    pub jumps: Vec<Range<usize>>,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
+    /// The rig, and the offset of its head as the clip alone shows it; none of a clip that is made.
+    pub rig_head: Option<RigHead>,
     /// What a manifest states about the clip's part in the set.
     pub choices: Choices,
     /// The style, such as `elderly`; empty where none is stated or found.
     pub style: String,
+    /// What a cache knows of the frames.
+    pub stored: Option<StoredFrames>,
+}
+
+/// SHA-256.
+pub(crate) type Digest = [u8; 32];
+
+/// What a cache knows of the frames of a clip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StoredFrames {
+    /// Key of the clip: of its file, the settings and the program.
+    pub(crate) key: Digest,
+    /// Number of frames.
+    pub(crate) count: usize,
+    /// Digest of the frame rate and of all poses.
+    pub(crate) digest: Digest,
 }
 
 /// What a manifest states about a clip's part in the set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Choices {
     /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
@@ -59,7 +83,7 @@ pub struct Choices {
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), m.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HumanBody {
     /// Offset of each joint from its parent; zero for the first joint.
     pub offsets_m: [DVec3; JOINT_COUNT],
@@ -74,7 +98,7 @@ pub struct HumanBody {
 }
 
 /// Pose of one frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HumanPose {
     /// World position of the pelvis joint (the midpoint of the hips), m.
     pub pelvis_m: DVec3,
@@ -97,16 +121,33 @@ impl HumanClip {
         if self.choices.takes_any_posture { &[] } else { &self.low_parts }
     }
 
+    /// Frames of which no example and no transition is made: those of the parts that are left out, and jumps.
+    pub(crate) fn left_out_frames(&self) -> Vec<Range<usize>> {
+        self.left_out_parts().iter().map(|part| &part.frames).chain(&self.jumps).cloned().collect()
+    }
+
     /// Whether the body is upright from one second of the file to another.
     pub(crate) fn is_upright_in(&self, window_s: [f64; 2]) -> bool {
         let [first, last] = window_s.map(|time_s| time_s * self.frame_rate_hz - self.first_frame as f64);
         !self.low_parts.iter().any(|part| first < part.frames.end as f64 && part.frames.start as f64 <= last)
     }
 
-    /// Order of two clips by their content, which names and folders do not change.
-    pub(crate) fn compare_content(&self, other: &Self) -> Ordering {
-        let heads = [self, other].map(|clip| (clip.frames.len(), clip.first_frame, clip.choices));
-        heads[0].cmp(&heads[1]).then_with(|| self.values().cmp(other.values()))
+    /// Number of frames, also where a cache stands for them.
+    pub(crate) fn frame_count(&self) -> usize {
+        self.stored.as_ref().map_or(self.frames.len(), |stored| stored.count)
+    }
+
+    /// What orders clips by their content, which names and folders do not change.
+    pub(crate) fn content_order(&self) -> impl Ord + use<> {
+        let digest = self.stored.as_ref().map_or_else(|| self.digest(), |stored| stored.digest);
+        (self.frame_count(), self.first_frame, self.choices, digest)
+    }
+
+    /// Digest of the frame rate and of all poses.
+    pub(crate) fn digest(&self) -> Digest {
+        let mut hasher = Sha256::new();
+        self.values().for_each(|bits| hasher.update(bits.to_le_bytes()));
+        hasher.finalize().into()
     }
 
     /// Bits of the frame rate and of all poses.

@@ -11,6 +11,7 @@ use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::diagnostic::Posture;
 use motiondb::statistics::{lower_quantile, mean};
+use serde::{Deserialize, Serialize};
 
 use crate::frame_runs::frame_runs;
 use crate::read::source_clip::SourceClip;
@@ -40,7 +41,7 @@ const LYING_MAX: f64 = 0.35;
 const GROUND_QUANTILE: f64 = 0.05;
 
 /// A part of a clip in which the body is not upright.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LowPart {
     /// Frames of the clip.
     pub frames: Range<usize>,

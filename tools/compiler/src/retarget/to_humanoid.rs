@@ -20,6 +20,7 @@ use crate::retarget::posture::{self, LowPart};
 use crate::retarget::soles::{Soles, soles};
 use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::units::{SourceUnits, leg_length};
+use crate::rig::rig_head::RigHead;
 use crate::rig::roles::Roles;
 
 /// Least length of a bone that is aimed, m: a millimetre of error would turn a shorter one by degrees.
@@ -51,6 +52,7 @@ pub(crate) fn to_human(
     let soles = soles(&calibrated, leg_m);
     let ground_m = soles.ground_m;
     let body = body(&calibrated, offsets_m, soles, leg_m);
+    let rig_head = RigHead::of(&clip, roles, leg_m, constants[Joint::Head.index()]);
     let mut frames = with_room(clip.frame_count())?;
     // From the last frame to the first: a list is cut at its end.
     while clip.frame_count() > 0 {
@@ -70,9 +72,12 @@ pub(crate) fn to_human(
         frames,
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
         low_parts,
+        jumps: Vec::new(),
         unfit: None,
+        rig_head: Some(rig_head),
         choices: Choices::default(),
         style: String::new(),
+        stored: None,
     })
 }
 

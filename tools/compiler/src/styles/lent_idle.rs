@@ -46,6 +46,7 @@ fn standing_parts(found: &AnalyzedClip, note: Diagnostic) -> AnalyzedClip {
         rests: found.rests.clone(),
         stances: [Vec::new(), Vec::new()],
         movements: Vec::new(),
+        corners: Vec::new(),
         diagnostics: vec![note],
         left_out: LeftOutWindows::default(),
     }

@@ -11,6 +11,7 @@ use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::steady_cycle::SteadyCycle;
 use crate::dedup::comparison::ComparedClip;
+use crate::dedup::comparison_log::ComparisonLog;
 use crate::dedup::duplicates;
 use crate::input::style_names::NEUTRAL_STYLES;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
@@ -121,8 +122,8 @@ impl StylePart {
     }
 
     /// Drops the windows of which another clip of the style has a better copy.
-    pub(crate) fn without_duplicates(mut self, body: &HumanBody) -> Self {
-        duplicates::drop_duplicates(&self.clips, &self.compared, &mut self.analyzed, body);
+    pub(crate) fn without_duplicates(mut self, body: &HumanBody, log: &ComparisonLog) -> Self {
+        duplicates::drop_duplicates(&self.clips, &self.compared, &mut self.analyzed, body, log);
         self.compared = Vec::new();
         self
     }

@@ -4,7 +4,7 @@
 //! and the cycles that became examples. Leaves: [`JoinedAction`](crate::action::joined_action::JoinedAction)s by kind and name.
 //!
 //! Read `transitions` (the chapter's steps), then `joint_state` with `example_rows`, `root_path`, `recorded_transition`,
-//! `selection`. Where transitions may lie in a clip, [`crate::gait`] finds.
+//! `selection`, `unused_corners`. Where transitions may lie in a clip, [`crate::gait`] finds.
 
 pub(crate) mod example_rows;
 pub(crate) mod joint_state;
@@ -12,3 +12,4 @@ pub(crate) mod recorded_transition;
 pub(crate) mod root_path;
 pub(crate) mod selection;
 pub(crate) mod transitions;
+pub(crate) mod unused_corners;

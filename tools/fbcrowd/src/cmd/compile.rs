@@ -31,7 +31,7 @@ use crate::terminal::progress::ProgressDisplay;
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
-                  fbcrowd compile clips/manifest.toml -o motion.fbdb --strict\n  fbcrowd compile figure.glb -o figure.fbchar"
+                  fbcrowd compile clips/manifest.toml -o motion.fbdb --strict\n  fbcrowd compile library -o motion.fbdb --cache library.cache\n  fbcrowd compile figure.glb -o figure.fbchar"
 )]
 pub(crate) struct Args {
     /// BVH, GLB or glTF files, folders of them (with their `manifest.toml`), or one manifest; or one figure.
@@ -45,6 +45,10 @@ pub(crate) struct Args {
     strict: bool,
     #[command(flatten)]
     outside: OutsideArg,
+    /// Keep the analysis of each clip in this folder: the next compilation takes as long as the clips that changed. The
+    /// folder is created, and can be deleted at any time; the database is the same with and without it.
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
     /// Print the report as JSON, with exit code 2 too; docs/json.md describes it.
     #[arg(long)]
     json: bool,
@@ -97,6 +101,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         max_examples: args.max_examples,
         styles: args.style.clone(),
         outside: args.outside.into(),
+        cache: args.cache.clone(),
     };
     let (stopwatch, progress) = (Stopwatch::default(), ProgressDisplay::default());
     let observer = |event: JobEvent<'_>| {
@@ -136,9 +141,9 @@ fn compile_figure(args: &Args) -> Result<Answer, Failure> {
     let [input] = args.clips.as_slice() else {
         return Err(Failure::bad("a character is made of one file; name one GLB, glTF or VRM file"));
     };
-    if args.max_examples.is_some() || args.velocity_hull.is_some() || !args.style.is_empty() {
+    if args.max_examples.is_some() || args.velocity_hull.is_some() || !args.style.is_empty() || args.cache.is_some() {
         return Err(Failure::bad(
-            "--max-examples, --velocity-hull and --style are options of databases; leave them out",
+            "--max-examples, --velocity-hull, --style and --cache are options of databases; leave them out",
         ));
     }
     let progress = ProgressDisplay::default();

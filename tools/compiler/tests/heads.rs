@@ -1,0 +1,83 @@
+//! Claims about heads: a head that is bent throughout a clip stays bent, an offset of the rig does not.
+
+mod zoo {
+    #![allow(dead_code, reason = "shared with the zoo's own tests")]
+    pub(crate) mod body;
+    pub(crate) mod file;
+    pub(crate) mod names;
+    pub(crate) mod rig;
+}
+
+use std::path::Path;
+
+use glam::{DQuat, DVec3, Vec3};
+use motiondb::body::Joint;
+use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb_compiler::{HumanClip, Options, compile, import_bytes};
+use zoo::body::{Performance, part};
+use zoo::file::{self, File};
+use zoo::names::tools;
+use zoo::rig::{self, Rest};
+
+const CLIPS: [&str; 7] =
+    ["walk_050", "walk_080", "walk_110", "walk_180", "turn_060_left", "turn_090_left", "side_060_left"];
+/// Greatest change of the median of seven clips by one that is bent, degrees.
+const TOLERANCE_DEG: f32 = 3.0;
+
+/// The clip with its head pitched down by an angle in the whole clip, on a rig of which the head's axes are turned.
+fn imported(clip: &str, down_rad: f64, rig_turn: DQuat) -> HumanClip {
+    let mut body = Performance::read(clip);
+    for pose in &mut body.poses {
+        let facing = pose.turns[0] * DVec3::Z;
+        let across = DVec3::Y.cross(facing.with_y(0.0)).normalize();
+        let head = &mut pose.turns[part("Head")];
+        *head = DQuat::from_axis_angle(across, down_rad) * *head * rig_turn;
+    }
+    let rig = rig::build(&body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
+    let text = file::write(&body, &rig, &File::plain(100.0, 1.0));
+    import_bytes(Path::new(&format!("{clip}.bvh")), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+}
+
+/// Mean pitch of the head of an example, degrees, + down.
+fn pitch_deg(db: &MotionDb, name: &str) -> f32 {
+    let example = db.examples.iter().position(|example| example.name == name).unwrap();
+    let forward = |row: usize| {
+        let mut turn = glam::Quat::IDENTITY;
+        let mut joint = Some(Joint::Head);
+        while let Some(at) = joint {
+            turn = db.rows.rotations(example, row)[at.index()] * turn;
+            joint = at.parent();
+        }
+        turn * Vec3::X
+    };
+    let sum = (0..PHASE_COUNT).map(forward).sum::<Vec3>();
+    libm::atan2f(-sum.z, libm::hypotf(sum.x, sum.y)).to_degrees()
+}
+
+fn compiled(bent: &[&str], down_deg: f64, rig_turn: DQuat) -> MotionDb {
+    let down_rad = |clip: &str| if bent.contains(&clip) { down_deg.to_radians() } else { 0.0 };
+    let clips = CLIPS.map(|clip| imported(clip, down_rad(clip), rig_turn));
+    compile(clips.to_vec(), &Options::default(), &|_| ()).unwrap()
+}
+
+#[test]
+fn a_bent_head_stays_bent_and_the_others_level() {
+    let plain = compiled(&[], 0.0, DQuat::IDENTITY);
+    for rig_turn in [DQuat::IDENTITY, DQuat::from_rotation_x(0.7), DQuat::from_rotation_y(1.4)] {
+        let db = compiled(&["walk_110"], 25.0, rig_turn);
+        for clip in CLIPS {
+            let bend_deg = pitch_deg(&db, clip) - pitch_deg(&plain, clip);
+            let wanted_deg = if clip == "walk_110" { 25.0 } else { 0.0 };
+            assert!((bend_deg - wanted_deg).abs() < TOLERANCE_DEG, "{clip}: {bend_deg}°, not {wanted_deg}°");
+        }
+    }
+}
+
+#[test]
+fn a_clip_alone_has_a_level_head() {
+    let level = |down_deg: f64| {
+        let clip = imported("walk_110", down_deg.to_radians(), DQuat::from_rotation_x(0.4));
+        pitch_deg(&compile(vec![clip], &Options::default(), &|_| ()).unwrap(), "walk_110")
+    };
+    assert!((level(0.0) - level(25.0)).abs() < 0.5);
+}
