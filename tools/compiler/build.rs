@@ -1,8 +1,9 @@
-//! Digest of the sources that results of the compiler follow from, for the keys of its cache: a program that may compute
-//! otherwise finds no result of this one. Environment variable `COMPILER_SOURCES` of the build.
+//! Digest of what results of the compiler follow from, its sources and the version of rustc, for the keys of its cache: a
+//! program that may compute otherwise finds no result of this one. Environment variable `COMPILER_SOURCES` of the build.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
 
 /// Sources beside this package: its own, those of the library that it uses, and the versions of all other libraries.
 const SOURCES: [&str; 3] = ["src", "../../motiondb/src", "../../Cargo.lock"];
@@ -15,11 +16,20 @@ fn main() {
     }
     files.sort();
     let mut digest = Fnv::default();
+    digest.add(&rustc_version());
     for file in &files {
         digest.add(file.to_string_lossy().as_bytes());
         digest.add(&fs::read(file).unwrap_or_default());
     }
     println!("cargo:rustc-env=COMPILER_SOURCES={}-{:016x}", env!("CARGO_PKG_VERSION"), digest.0);
+}
+
+/// What `rustc --version` prints: release, commit and date. The machine does not count, so that a cache can be copied.
+fn rustc_version() -> Vec<u8> {
+    println!("cargo:rerun-if-env-changed=RUSTC");
+    let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let printed = Command::new(&rustc).arg("--version").output();
+    printed.unwrap_or_else(|error| panic!("{} --version: {error}", rustc.display())).stdout
 }
 
 /// The files below a path; none where there is nothing, as in a published package.
