@@ -48,6 +48,11 @@ pub(crate) fn shift_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_plan
 /// Corrects heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`].
 pub(crate) fn keep_soles_above_ground(poses: &mut [HumanPose], body: &HumanBody) {
     for pose in poses {
+        // Most poses need no correction, and one pose of the joints shows it.
+        let joints = pose.forward_kinematics(body);
+        if (0..2).all(|side| lowest_sole_m(&joints, body, side) >= -SOLE_DEPTH_MAX_M) {
+            continue;
+        }
         for side in 0..2 {
             raise_foot(pose, body, side, HEEL_AND_BALL);
             bend_toes(pose, body, side);

@@ -8,7 +8,7 @@
 use motiondb::body::Side;
 
 use crate::rig::joint_names::{self, BodyPart};
-use crate::rig::source_rig::SourceRig;
+use crate::rig::source_rig::{LEVELS_MAX, SourceRig};
 
 /// Accepted length of the lower bone, divided by the upper one's: people 0.8 to 1.2, drawn characters up to 2.4.
 const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.45..=2.6;
@@ -19,7 +19,7 @@ const SIDES_DIFFER: f64 = 0.15;
 /// Greatest standard deviation of the distance from the knee to a foot outside the leg's chain, divided by its mean.
 const DETACHED_FOOT_LOOSENESS: f64 = 0.12;
 /// Greatest number of joints from a fork to the end of its limb; the busiest rig of the development set has 9.
-const MAX_CHAIN: usize = 16;
+const MAX_CHAIN: usize = LEVELS_MAX + 1;
 /// Greatest number of limbs of one fork that are paired, best first; a hand with all fingers has some dozens.
 const MAX_LIMBS: usize = 256;
 /// Greatest number of pairs of one fork, best first; no real rig has as many.
@@ -55,7 +55,10 @@ pub(crate) struct LimbPair {
 impl Limb {
     fn new(rig: &SourceRig, joints: [usize; 3], weight: f64) -> Self {
         let [from, middle, to] = joints;
-        let bones = [rig.mean_distance(from, middle), rig.mean_distance(middle, to)];
+        Self::of_bones(joints, [rig.mean_distance(from, middle), rig.mean_distance(middle, to)], weight)
+    }
+
+    fn of_bones(joints: [usize; 3], bones: [f64; 2], weight: f64) -> Self {
         let length = bones[0] + bones[1];
         Self { joints, bones, length, score: length * weight }
     }
@@ -160,15 +163,19 @@ fn limbs_below(rig: &SourceRig, child: usize, parts: [BodyPart; 3]) -> Vec<Limb>
 
 /// The limb from `start` over `middle` to the end of a path, if its bones fit.
 fn limb(rig: &SourceRig, path: &[usize], [start, middle]: [usize; 2], parts: [BodyPart; 3]) -> Option<Limb> {
-    let joints = [path[start], path[middle], path[path.len() - 1]];
+    let end = path.len() - 1;
+    let joints = [path[start], path[middle], path[end]];
+    let bones = [rig.distance_up(path[middle], middle - start), rig.distance_up(path[end], end - middle)];
     let [upper, lower] = [&path[start..=middle], &path[middle..]];
-    let weight =
-        skipped_weight(rig, upper) * skipped_weight(rig, lower) * (1.0 + DEPTH_BONUS * (start + middle) as f64);
-    let limb = Limb::new(rig, joints, name_weight(rig, joints, parts) * weight);
-    let fits = BONE_RATIO.contains(&(limb.bones[1] / limb.bones[0].max(1e-12)))
+    let fits = BONE_RATIO.contains(&(bones[1] / bones[0].max(1e-12)))
         && skips_only_bone(rig, upper)
         && skips_only_bone(rig, lower);
-    fits.then_some(limb)
+    if !fits {
+        return None;
+    }
+    let weight =
+        skipped_weight(rig, upper) * skipped_weight(rig, lower) * (1.0 + DEPTH_BONUS * (start + middle) as f64);
+    Some(Limb::of_bones(joints, bones, name_weight(rig, joints, parts) * weight))
 }
 
 /// A leg whose foot does not hang from its shank, by name, side and constant distance from the knee. Some rigs hang

@@ -12,6 +12,8 @@ use crate::rig::joint_names::{self, BodyPart, NameHints};
 const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
 /// Greatest number of frames on which geometry is measured.
 const SAMPLES: usize = 48;
+/// Number of joints above each joint to which its distance is measured once. Limb search asks for it hundreds of times.
+pub(crate) const LEVELS_MAX: usize = 15;
 
 /// The frames, of so many, on which geometry is measured.
 pub(crate) fn sampled_frames(count: usize) -> Vec<usize> {
@@ -31,6 +33,8 @@ pub(crate) struct SourceRig<'a> {
     frames: Vec<usize>,
     /// Length along the bones from each joint to its farthest leaf.
     reach: Vec<f64>,
+    /// Mean distance of each joint from its parent, the joint above that, and so on.
+    distances_up: Vec<Vec<f64>>,
 }
 
 impl<'a> SourceRig<'a> {
@@ -48,17 +52,28 @@ impl<'a> SourceRig<'a> {
             children,
             frames: sampled_frames(clip.frame_count()),
             reach: vec![0.0; clip.joints.len()],
+            distances_up: Vec::new(),
         };
+        let distances_up = |joint: usize| {
+            let above = rig.ancestors(joint).into_iter().skip(1).take(LEVELS_MAX);
+            above.map(|above| rig.mean_distance(above, joint)).collect()
+        };
+        rig.distances_up = (0..clip.joints.len()).map(distances_up).collect();
         for child in (0..clip.joints.len()).rev() {
             if let Some(parent) = clip.joints[child].parent {
-                rig.reach[parent] = rig.reach[parent].max(rig.reach_through(parent, child));
+                rig.reach[parent] = rig.reach[parent].max(rig.reach_through(child));
             }
         }
         rig
     }
 
-    fn reach_through(&self, parent: usize, child: usize) -> f64 {
-        self.reach[child] + self.mean_distance(parent, child)
+    fn reach_through(&self, child: usize) -> f64 {
+        self.reach[child] + self.distance_up(child, 1)
+    }
+
+    /// Mean distance of a joint from the one so many levels above it, at most [`LEVELS_MAX`].
+    pub(crate) fn distance_up(&self, joint: usize, levels: usize) -> f64 {
+        self.distances_up[joint][levels - 1]
     }
 
     /// Mean distance of two joints.
@@ -97,10 +112,8 @@ impl<'a> SourceRig<'a> {
     pub(crate) fn longest_chain(&self, joint: usize) -> Vec<usize> {
         let mut chain = vec![joint];
         let mut tail = joint;
-        let through = |parent: usize, child: usize| self.reach_through(parent, child);
-        while let Some(&next) =
-            self.children[tail].iter().max_by(|&&a, &&b| through(tail, a).total_cmp(&through(tail, b)))
-        {
+        let through = |child: usize| self.reach_through(child);
+        while let Some(&next) = self.children[tail].iter().max_by(|&&a, &&b| through(a).total_cmp(&through(b))) {
             chain.push(next);
             tail = next;
         }

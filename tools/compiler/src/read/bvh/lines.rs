@@ -65,7 +65,7 @@ impl<R: BufRead> TextLines<R> {
             }
             self.number += 1;
             // A line that is too long ends the reading, also if its beginning is blank.
-            if self.bytes.len() > LINE_MAX_BYTES || !String::from_utf8_lossy(&self.bytes).trim().is_empty() {
+            if self.bytes.len() > LINE_MAX_BYTES || !is_blank(&self.bytes) {
                 break;
             }
         }
@@ -105,6 +105,11 @@ impl<R: BufRead> TextLines<R> {
             }
         }
     }
+}
+
+/// Whether a line has blanks alone. A letter, digit or sign of ASCII decides at once.
+fn is_blank(line: &[u8]) -> bool {
+    !line.iter().any(u8::is_ascii_graphic) && String::from_utf8_lossy(line).trim().is_empty()
 }
 
 /// The number that a word spells.
