@@ -271,8 +271,18 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (
             Unfit::StridesUneven { speeds_mps: [0.4, 0.9], turn_rates_rad_s: [0.0, FRAC_PI_2] },
-            "no steady stride was found: in the steadiest one the speed varies from 0.40 to 0.90 m/s, and its steps turn \
-             by 0 and 90 °/s; use a clip of a steady gait",
+            "no steady stride was found: in the steadiest one the speed varies from 0.40 to 0.90 m/s (at most 0.20 apart), \
+             and its steps turn by 0 and 90 °/s (at most 60 apart); use a clip of a steady gait",
+        ),
+        (
+            Unfit::StridesUneven { speeds_mps: [2.0, 4.0], turn_rates_rad_s: [0.0, 0.0] },
+            "no steady stride was found: in the steadiest one the speed varies from 2.00 to 4.00 m/s (at most 0.75 apart), \
+             and its steps turn by 0 and 0 °/s (at most 60 apart); use a clip of a steady gait",
+        ),
+        (
+            Unfit::CycleOpen { seam_rad: 0.5, largest_rad: 0.1 },
+            "the closed stride jumps: its end turns a joint by 29° to its beginning, other poses by 6° at most; use a \
+             steadier part",
         ),
         (
             Unfit::MovesLengthwise,
@@ -363,6 +373,7 @@ const NUMBERED: [&[&str]; 3] = [
         "strides_uneven",
         "arms_out",
         "arm_raised",
+        "cycle_open",
     ],
 ];
 

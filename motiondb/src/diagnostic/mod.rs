@@ -8,7 +8,7 @@
 
 mod note;
 mod posture;
-mod unfit;
+pub mod unfit;
 mod warning;
 
 use std::fmt;

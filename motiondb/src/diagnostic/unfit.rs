@@ -9,6 +9,19 @@ use crate::body::skeleton::Side;
 use crate::diagnostic::{Posture, and_mirrored};
 use crate::motion::parameters::Parameters;
 
+/// Greatest difference in speed between two halves of a steady lone stride, m/s.
+const HALF_SPEED_MPS: f64 = 0.2;
+/// The same as a share of their mean; the greater of both limits counts.
+const HALF_SPEED_SHARE: f64 = 0.25;
+/// Greatest difference in turn rate between the two steps of a steady lone stride, rad/s: 60 °/s; a straight run sways
+/// by it.
+pub const STEP_TURN_RAD_S: f64 = 60.0 * std::f64::consts::PI / 180.0;
+
+/// Greatest difference in speed between two halves of a steady lone stride of these least and greatest speeds, m/s.
+pub fn half_speed_limit_mps([least_mps, greatest_mps]: [f64; 2]) -> f64 {
+    HALF_SPEED_MPS.max(HALF_SPEED_SHARE * 0.5 * (least_mps + greatest_mps))
+}
+
 /// Reason why a clip gives no example.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -223,13 +236,17 @@ fn same_take(out: &mut fmt::Formatter<'_>, other: &str, mirrored: bool, frame_ti
 
 fn strides_uneven(
     out: &mut fmt::Formatter<'_>,
-    [least_mps, greatest_mps]: [f32; 2],
+    speeds_mps: [f32; 2],
     [first_deg_s, second_deg_s]: [f32; 2],
 ) -> fmt::Result {
+    let [least_mps, greatest_mps] = speeds_mps;
     write!(
         out,
-        "no steady stride was found: in the steadiest one the speed varies from {least_mps:.2} to {greatest_mps:.2} m/s, \
-         and its steps turn by {first_deg_s:.0} and {second_deg_s:.0} °/s; use a clip of a steady gait"
+        "no steady stride was found: in the steadiest one the speed varies from {least_mps:.2} to {greatest_mps:.2} m/s \
+         (at most {:.2} apart), and its steps turn by {first_deg_s:.0} and {second_deg_s:.0} °/s (at most {:.0} apart); \
+         use a clip of a steady gait",
+        half_speed_limit_mps(speeds_mps.map(f64::from)),
+        STEP_TURN_RAD_S.to_degrees()
     )
 }
 

@@ -4,15 +4,11 @@
 //! window. Windows are taken greedily: the longest of the clip, then the longest of the parts before and after it, so
 //! that they are disjoint. Times in frames of the clip.
 
+use motiondb::diagnostic::unfit::{STEP_TURN_RAD_S, half_speed_limit_mps};
+
 use crate::gait::stride::{Landmark, Stride};
 use crate::gait::stride_spread::StrideSpread;
 
-/// Greatest difference in speed between two halves of a lone stride, m/s.
-const HALF_SPEED_MPS: f64 = 0.2;
-/// The same as a share of their mean; the greater of both limits counts.
-const HALF_SPEED_SHARE: f64 = 0.25;
-/// Greatest difference in turn rate between the two steps of a lone stride, rad/s: 60 °/s; a straight run sways by it.
-const STEP_TURN_RAD_S: f64 = 60.0 * std::f64::consts::PI / 180.0;
 /// Tolerance for equal landmarks, frames: they lie on frames and half-way between.
 const SAME_FRAME: f64 = 0.25;
 
@@ -119,8 +115,8 @@ fn longest_window(steps: &ClipSteps, reading: usize, [start, end]: [f64; 2]) -> 
 pub(crate) fn unevenness(stride: &Stride) -> f64 {
     let [least_mps, greatest_mps] = stride.half_speeds_mps;
     let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;
-    let limit_mps = HALF_SPEED_MPS.max(HALF_SPEED_SHARE * 0.5 * (least_mps + greatest_mps));
-    ((greatest_mps - least_mps) / limit_mps).max((second_rad_s - first_rad_s).abs() / STEP_TURN_RAD_S)
+    ((greatest_mps - least_mps) / half_speed_limit_mps(stride.half_speeds_mps))
+        .max((second_rad_s - first_rad_s).abs() / STEP_TURN_RAD_S)
 }
 
 #[cfg(test)]
