@@ -3,7 +3,8 @@
 //! For each class of gait, two sets of distances ([`PoseSequence`]) are measured: each real clip to the nearest real
 //! clip of *another* source folder, and each bundled clip to the nearest real clip. No bundled distance may exceed the
 //! median of the real ones. A capture with several windows of one class counts once, with its longest window. Left and
-//! right motions are one class, so a mirrored example is compared too.
+//! right motions are one class, so a mirrored example is compared too. Classes have the speeds of a body with legs of
+//! 0.8 m, so that the body that a set shares moves no clip into another class.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +21,10 @@ use crate::kit::statistics::median;
 /// Least number of source folders with which the criterion applies.
 const SOURCES_MIN: usize = 3;
 
-/// A class of gait, by its parameters.
+/// Thigh plus shank of the body whose speeds define the classes, m.
+const LEG_M: f32 = 0.8;
+
+/// A class of gait, by its parameters on a body with legs of [`LEG_M`].
 struct GaitClass {
     name: &'static str,
     contains: fn(&Parameters) -> bool,
@@ -127,12 +131,18 @@ fn recorded_cycles(db: &MotionDb) -> Vec<RecordedCycle> {
             source: file.parent().map_or_else(String::new, |folder| folder.display().to_string()),
             capture: example.source,
             clip: example.name.clone(),
-            parameters: example.parameters,
+            parameters: with_legs(&example.parameters, db.skeleton.leg_length_m(), LEG_M),
             window_s: example.window_s[1] - example.window_s[0],
             sequences: sequences.map(|index| PoseSequence::of(db, index)).collect(),
         }
     };
     db.examples.iter().filter(steps).map(cycle).collect()
+}
+
+/// Parameters of the same motion on a body with other legs, m.
+fn with_legs(found: &Parameters, from_m: f32, to_m: f32) -> Parameters {
+    let growth = to_m / from_m;
+    Parameters { speed_mps: growth * found.speed_mps, strafe_mps: growth * found.strafe_mps, ..*found }
 }
 
 fn similarity_in_class(gait_class: &GaitClass, real: &[RecordedCycle], ours: &[RecordedCycle]) -> GaitSimilarity {
@@ -175,4 +185,22 @@ fn nearest<'a>(cycle: &RecordedCycle, others: impl Iterator<Item = &'a &'a Recor
         nearest: other.clip.clone(),
         nearest_source: other.source.clone(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_body_of_a_set_moves_no_clip_into_another_class() {
+        let [walks, ..] = GAIT_CLASSES;
+        let contained = |speed_mps: f32, leg_m: f32| {
+            let found = Parameters { speed_mps, ..Parameters::default() };
+            (walks.contains)(&with_legs(&found, leg_m, LEG_M))
+        };
+        for size in [0.8, 1.0, 1.25] {
+            let found = [0.95, 1.05, 1.45, 1.55].map(|speed_mps| contained(size * speed_mps, size * LEG_M));
+            assert_eq!(found, [false, true, true, false], "{size}");
+        }
+    }
 }
