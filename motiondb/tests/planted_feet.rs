@@ -2,12 +2,12 @@
 
 mod support;
 
-use glam::{DVec3, Quat};
+use glam::{DVec2, DVec3, Quat};
 use motiondb::body::{JOINT_COUNT, Joint, Side};
 use motiondb::motion::{Action, MotionDb, PHASE_COUNT};
 use motiondb::quality::action_quality;
 use motiondb::quality::example_quality::{lint, quality};
-use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion, implied_velocity_mps};
 use support::small_db;
 
 const WALK: usize = 1;
@@ -24,6 +24,17 @@ fn planted_feet_imply_the_root_motion() {
         let (found, stored) = (implied_root_motion(&feet(&db, example)).unwrap(), db.examples[example].parameters);
         assert!(found.parameters.to_vec3().distance(stored.to_vec3()) < 2e-3, "{found:?}, not {stored:?}");
         assert!(found.rest_mps < 1e-3, "{found:?}");
+    }
+}
+
+#[test]
+fn planted_feet_imply_the_velocity_at_a_turn_rate() {
+    let db = small_db();
+    for example in [WALK, TURN] {
+        let stored = db.examples[example].parameters;
+        let found_mps = implied_velocity_mps(&feet(&db, example), stored.turn_rate_rad_s.into()).unwrap();
+        let stored_mps = DVec2::new(stored.speed_mps.into(), stored.strafe_mps.into());
+        assert!(found_mps.distance(stored_mps) < 2e-3, "{found_mps}, not {stored_mps}");
     }
 }
 

@@ -19,7 +19,7 @@ use crate::body::skeleton::{Side, Skeleton};
 use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
-use crate::statistics::percentile;
+use crate::statistics::{mean, percentile};
 
 /// Least contact of a planted foot.
 pub const PLANTED_CONTACT: f64 = 0.5;
@@ -187,6 +187,15 @@ pub fn implied_root_motion(feet: &CycleFeet) -> Option<ImpliedRootMotion> {
         parameters: Parameters::from_vec3(velocity.as_vec3()),
         rest_mps: rms_speed_mps(&planted, velocity),
     })
+}
+
+/// Velocity (v_f, ω_s) of the root, m/s, for which planted feet are at rest as far as possible while the root turns at a
+/// rate (rad/s): the least-squares solution of Eq. 1 for it. `None` if nothing is planted.
+pub fn implied_velocity_mps(feet: &CycleFeet, turn_rate_rad_s: f64) -> Option<DVec2> {
+    let turn = DVec3::new(0.0, turn_rate_rad_s, 0.0);
+    let planted = feet.planted();
+    let slides_mps = planted.iter().map(|point| DVec2::from(point.equations().map(|(row, rate)| row.dot(turn) + rate)));
+    mean(slides_mps).map(|slide_mps| -slide_mps)
 }
 
 impl ImpliedRootMotion {

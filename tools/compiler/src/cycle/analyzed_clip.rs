@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
+use crate::cycle::foot_slide::follow_feet;
 use crate::cycle::mean_stride::{frames_beside, mean_stride};
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::gait::foot_stance::FootStance;
@@ -75,15 +76,10 @@ impl AnalyzedClip {
         let (mut windows, mut reasons) = (Vec::new(), Vec::new());
         match found {
             Ok(found) => {
+                let is_in_place = clip.in_place_mps.is_some();
+                let on_body = ClipOnBody { times: &times, grounded: &grounded, body, growth, is_in_place };
                 for window in found {
-                    match steady_cycle(
-                        &times,
-                        &grounded,
-                        body,
-                        growth,
-                        &performer.gait.stances[window.reading],
-                        &window,
-                    ) {
+                    match on_body.steady_cycle(&performer.gait.stances[window.reading], &window) {
                         Ok(steady) => windows.push(steady),
                         Err(unfit) => reasons.push(unfit),
                     }
@@ -273,22 +269,30 @@ impl ClipTimes {
     }
 }
 
-/// The steady cycle of a window, or why it is unfit. The body is `growth` times as large as the performer; `stances`
-/// are those of both feet, `[left, right]`.
-fn steady_cycle(
-    times: &ClipTimes,
-    grounded: &GroundedClip,
-    body: &HumanBody,
+/// A clip on the target body, of which windows become cycles.
+struct ClipOnBody<'a> {
+    times: &'a ClipTimes,
+    grounded: &'a GroundedClip<'static>,
+    body: &'a HumanBody,
+    /// Size of the body over that of the performer.
     growth: f64,
-    stances: &[Vec<FootStance>; 2],
-    window: &GaitWindow,
-) -> Result<SteadyCycle, Unfit> {
-    let window_s = window.frames.map(|frame| times.in_file_s(frame));
-    match &window.gait {
-        WindowGait::Stands(frames) => SteadyCycle::of_rest(grounded, frames, body, window_s),
-        WindowGait::Steps(strides) => {
-            let cycle = mean_stride(grounded, body, stances, strides);
-            SteadyCycle::of_strides(cycle, strides, body, growth, window_s)
+    /// Whether the body does not travel in the source.
+    is_in_place: bool,
+}
+
+impl ClipOnBody<'_> {
+    /// The steady cycle of a window, or why it is unfit; `stances` are those of both feet, `[left, right]`.
+    fn steady_cycle(&self, stances: &[Vec<FootStance>; 2], window: &GaitWindow) -> Result<SteadyCycle, Unfit> {
+        let window_s = window.frames.map(|frame| self.times.in_file_s(frame));
+        match &window.gait {
+            WindowGait::Stands(frames) => SteadyCycle::of_rest(self.grounded, frames, self.body, window_s),
+            WindowGait::Steps(strides) => {
+                let mut cycle = mean_stride(self.grounded, self.body, stances, strides);
+                if self.is_in_place {
+                    follow_feet(&mut cycle, self.body);
+                }
+                SteadyCycle::of_strides(cycle, strides, self.body, self.growth, window_s)
+            }
         }
     }
 }

@@ -30,6 +30,15 @@ pub(crate) fn foot_slide(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     planted_feet::foot_slide(&cycle_feet(cycle, body), velocity)
 }
 
+/// Sets the velocity of the root of a cycle whose clip is in place: its planted feet stand as still as any velocity lets
+/// them. The speed that import found serves to find the contacts; on the target's feet another one may fit better.
+pub(crate) fn follow_feet(cycle: &mut GaitCycle, body: &HumanBody) {
+    let found = planted_feet::implied_velocity_mps(&cycle_feet(cycle, body), cycle.rates.turn_rate_rad_s);
+    if let Some(velocity_mps) = found {
+        cycle.rates = Rates { speed_mps: velocity_mps.x, strafe_mps: velocity_mps.y, ..cycle.rates };
+    }
+}
+
 /// The feet of a cycle as the database stores them: contacts are rounded to f32.
 pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|row| row.forward_kinematics(body)).collect();
@@ -89,6 +98,17 @@ mod tests {
         let mut cycle = cycle_of(&clip);
         cycle.rates.speed_mps += 0.1;
         assert!((foot_slide(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn the_root_of_a_clip_in_place_follows_its_feet() {
+        let clip = synthetic::walk("walk", SyntheticWalk::at(1.2, 0.1, 0.2));
+        let mut cycle = cycle_of(&clip);
+        let exact = cycle.rates;
+        (cycle.rates.speed_mps, cycle.rates.strafe_mps) = (1.5, 0.0);
+        follow_feet(&mut cycle, &clip.body);
+        let (found, exact) = (cycle.rates.to_parameters().to_vec3(), exact.to_parameters().to_vec3());
+        assert!(found.distance(exact) < 5e-3, "{found}, not {exact}");
     }
 
     #[test]
