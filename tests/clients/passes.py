@@ -67,7 +67,10 @@ def main():
     assert np.median(np.abs(motion[bodies])) < 0.3, "motion forward and backward is opposite"
 
     manifest = json.loads(spec.getattribute("cryptomatte/f42029d/manifest"))
-    coverage = {}
+    # As float, whole numbers would be shares of the greatest one.
+    number = names.index("agent.id")
+    agents = np.asarray(picture.read_image(0, 0, number, number + 1, "uint"))[:, :, 0]
+    coverage, shown = {}, 0
     for name, digits in manifest.items():
         bits = murmur3(name.encode())
         bits ^= 1 << 23 if bits >> 23 & 0xFF in (0, 255) else 0
@@ -76,8 +79,10 @@ def main():
         ranks = [of_rank(rank, sides) for rank in (0, 1) for sides in ("RG", "BA")]
         covered = sum(np.where(rank[:, :, 0] == as_float(bits), rank[:, :, 1], 0) for rank in ranks)
         coverage[name] = covered.sum()
-        own = channel("agent.id")[:, :, 0] == int(name.split("_")[1]) + 1
+        own = agents == int(name.split("_")[1]) + 1
         assert (covered[own] > 0).all(), f"{name} covers the pixels that show its id"
+        shown += own.sum()
+    assert shown == (agents > 0).sum() > 0, "every id is that of a name"
     name = max(coverage, key=coverage.get)
     print(f"{path}: {len(names)} channels, {len(manifest)} agents in the manifest")
     print(name, coverage[name])
