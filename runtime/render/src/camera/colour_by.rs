@@ -46,7 +46,7 @@ pub(crate) fn shown(colour_by: ColourBy, agents: &[AgentFrame], population: &Pop
             Some(group.map_or(ALONE, |group| look(group as usize).shirt))
         }
         ColourBy::Speed => Some(heat(1.0 - agent.planned_mps.length() / BRISK_MPS)),
-        ColourBy::Synthesis => Some(if agent.mode == Mode::Blending { TURNING_SET } else { HOLDING_SET }),
+        ColourBy::Synthesis => Some(if agent.mode == Mode::SemiProcedural { HOLDING_SET } else { TURNING_SET }),
         ColourBy::Density => {
             let per_m2 = density.as_ref().map_or(0.0, |density| density.at_per_m2(agent.root.position_m));
             Some(heat(per_m2 / CROWDED_PER_M2))

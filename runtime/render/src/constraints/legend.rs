@@ -146,6 +146,7 @@ fn mode_name(mode: Mode) -> &'static str {
     match mode {
         Mode::Blending => "motion blending",
         Mode::SemiProcedural => "semi-procedural",
+        Mode::Transition => "recorded transition",
     }
 }
 

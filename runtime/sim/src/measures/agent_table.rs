@@ -103,6 +103,7 @@ fn mode(mode: Mode) -> &'static str {
     match mode {
         Mode::Blending => "blending",
         Mode::SemiProcedural => "semi_procedural",
+        Mode::Transition => "transition",
     }
 }
 

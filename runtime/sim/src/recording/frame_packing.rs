@@ -177,6 +177,7 @@ fn mode(code: u8) -> Result<Mode, FrameFault> {
     match code {
         0 => Ok(Mode::Blending),
         1 => Ok(Mode::SemiProcedural),
+        2 => Ok(Mode::Transition),
         _ => Err(FrameFault::UnknownMode(code)),
     }
 }
@@ -233,7 +234,7 @@ mod tests {
         assert_eq!(unpack(&bytes[..PACKED_BYTES - 1]), Err(FrameFault::TooShort));
         check(0, &f32::NAN.to_le_bytes(), FrameFault::ValueOutOfRange);
         check(48, &[0xff; 3], FrameFault::TimeToLandingOutOfRange);
-        check(51, &[4], FrameFault::UnknownMode(2));
+        check(51, &[6], FrameFault::UnknownMode(3));
     }
 
     proptest! {

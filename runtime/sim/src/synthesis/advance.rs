@@ -23,10 +23,15 @@ impl Body {
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
         let feet_gathered = || feet_gathered(contact, root, &context.domain);
-        if motion.mode == Mode::Blending && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
+        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
-            motion.jump(context, step, |motion| motion.phase = phase);
-            weight_shift.begin(stance_foot(phase));
+            let stance = stance_foot(phase);
+            if let Some(action) = context.starts.fitting(command.filter.command, 1 - stance) {
+                motion.begin_transition(action, context, step);
+            } else {
+                motion.jump(context, step, |motion| motion.phase = phase);
+                weight_shift.begin(stance);
+            }
         }
         let target = motion.target(command, &reachable, context);
         motion.approach(target, &reachable, command, context, step.dt_s);
@@ -34,12 +39,12 @@ impl Body {
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
         let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
-        motion.time_steps(root, target, context, step);
-        motion.advance_phase(step.dt_s * rate_factor * motion.timing.pace, context);
+        motion.take_steps(root, target, rate_factor, context, step);
         let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
+        motion.end_transition(command.step_state.stands, context, step);
         motion.select(&plan, command.step_state.walks_on(&reachable), context, step.dt_s);
         motion.switch(phase_before, context, step);
         if reverses {
@@ -47,7 +52,7 @@ impl Body {
         }
         look_at.follow(&plan, root.facing_rad, step);
         let drawn = motion.drawn_parameters(&context.db);
-        lean.follow(&drawn, step);
+        lean.follow(&drawn, motion.clip_acceleration_mps2(&context.db), step);
         let walking = Vec2::new(drawn.speed_mps, drawn.strafe_mps).length() / context.base_mps;
         squeeze.follow(plan.gap_m, context.shoulder_breadth_m, step);
         secondary.follow(motion.phase, advanced, walking, step);

@@ -6,7 +6,8 @@
 //!
 //! 1. `displacement_accumulator`: planned displacement that is too slow to walk is accumulated and becomes one step;
 //! 2. `blend_query`, `command_filter`: the plan requests (v_f, ω_t, ω_s); filtered, they are the command;
-//! 3. `step_state`, `start_stop`: the body stands or steps;
+//! 3. `step_state`, `start_stop`: the body stands or steps; where the database has a recorded start that fits (`starts`),
+//!    a body that begins to step plays it (`played_transition`);
 //! 4. `motion_state`, `weight_transition`: the active motion moves toward the part of the command that it can reach;
 //! 5. the root moves along its arc, and the phase advances (`phase_catch_up`);
 //! 6. `pose_smoothing`, `inertialization`: the drawn motion follows, and the pose offset of the last switch decays
@@ -15,7 +16,7 @@
 //!
 //! `synthesize` makes the pose:
 //!
-//! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
+//! 8. `active_motion`: blending, semi-procedural locomotion or a recorded transition gives a posture, to which the pose offset is added;
 //! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
 //!    chest turn; shoulders turn in gaps; the trunk leans;
 //! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the

@@ -1,4 +1,4 @@
-//! The two syntheses: which of them moves a body, and which a body may use (`FbCrowd` §3.4.1).
+//! The syntheses: which of them moves a body, and which a body may use (`FbCrowd` §3.4.1).
 
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +11,8 @@ pub enum Mode {
     Blending = 0,
     /// Semi-procedural locomotion.
     SemiProcedural = 1,
+    /// A recorded transition of the database; the root moves as in motion blending. `FbCrowd` does not have it.
+    Transition = 2,
 }
 
 /// The syntheses that a body may use; `FbCrowd` §7 compares them on its obstacle course.

@@ -105,7 +105,7 @@ fn is_held_up(before_m: &[Vec3; 3], after_m: &[Vec3; 3]) -> bool {
 
 /// Contact of each foot [`LANDING_AHEAD_S`] later.
 fn contacts_ahead(active: &ActiveMotion, motion: &MotionState, context: &SynthesisContext) -> [f32; 2] {
-    let phase_rate_hz = motion.timing.pace * active.phase_rate_hz(motion.phase);
+    let phase_rate_hz = motion.timing.pace * active.phase_rate_hz(context, motion.phase);
     active.contacts(context, wrapped(motion.phase + LANDING_AHEAD_S * phase_rate_hz))
 }
 

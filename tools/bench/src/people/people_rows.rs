@@ -93,7 +93,7 @@ fn together_share(people: &PeopleMeasures) -> Option<f64> {
 
 /// All measures, in the order of the table.
 #[rustfmt::skip]
-pub(crate) const ROWS: [PeopleRow; 54] = [
+pub(crate) const ROWS: [PeopleRow; 56] = [
     row!("phase order R at 1 s", |runs| order(&runs.starts, 0), Limits::Shown),
     row!("phase order R at 3 s", |runs| order(&runs.starts, 1), Limits::AtMost(0.2)),
     row!("phase order R at 8 s", |runs| order(&runs.starts, 2), Limits::AtMost(0.2)),
@@ -114,6 +114,8 @@ pub(crate) const ROWS: [PeopleRow; 54] = [
     row!("start: mean acceleration, m/s²", |runs| runs.lanes.starts.acceleration_mps2, |people| people.starts.acceleration_mps2, Limits::Shown),
     row!("start: peak acceleration, m/s²", |runs| runs.lanes.starts.peak_mps2, |people| people.starts.peak_mps2, Limits::Shown),
     row!("start: lean, ° per m/s²", |runs| runs.lanes.starts.lean_deg_per_mps2, |people| people.starts.lean_deg_per_mps2, Limits::Within(0.5, 1.7)),
+    row!("starts in crowds", |runs| Some(runs.pooled.starts.count as f64), Limits::Shown),
+    row!("starts in crowds that play a recorded transition, share", |runs| runs.pooled.starts.recorded_share, Limits::Shown),
     row!("stop: duration, s", |runs| runs.lanes.stops.duration_s, |people| people.stops.duration_s, Limits::Shown),
     row!("stop: peak deceleration, m/s²", |runs| runs.lanes.stops.peak_mps2, |people| people.stops.peak_mps2, Limits::Shown),
     row!("stop: creep below 0.3 m/s, s", |runs| runs.lanes.stops.creep_s, |people| people.stops.creep_s, Limits::AtMost(0.4)),

@@ -111,6 +111,8 @@ pub struct StartsMirror {
     peak_mps2: Option<f64>,
     /// Median lean, degrees per m/s²; null without starts.
     lean_deg_per_mps2: Option<f64>,
+    /// Share of the starts that play a recorded transition for more than half of their duration; null without starts.
+    recorded_share: Option<f64>,
 }
 
 /// Mirror of [`fbcrowd_sim::measures::people::Stops`].

@@ -13,6 +13,7 @@ use crate::maths::segment_distance::distance_m;
 use crate::measures::bone_capsule::bone;
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::recording::frame::AgentFrame;
+use crate::synthesis::Mode;
 
 /// Half the interval over which a speed is taken, s: a fifth of a second evens out single frames, not steps.
 const SPEED_SPAN_S: f64 = 0.1;
@@ -34,6 +35,8 @@ pub struct BodySample {
     pub phase: f32,
     /// Whether each foot is planted.
     pub planted: [bool; 2],
+    /// Whether the pose is that of a recorded transition.
+    pub in_transition: bool,
     /// Whether the agent has arrived.
     pub has_arrived: bool,
     /// Pelvis joint, m.
@@ -75,6 +78,7 @@ impl BodySample {
             preferred_mps: agent.preferred_mps,
             phase: agent.phase,
             planted: agent.contacts.map(|contact| contact >= PLANTED_CONTACT),
+            in_transition: agent.mode == Mode::Transition,
             has_arrived,
             pelvis_m,
             trunk_m: world_m(Joint::Neck) - pelvis_m,

@@ -6,6 +6,7 @@ use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::blending::PoseWeights;
 use crate::synthesis::hybrid::idle_clock::IdleClock;
+use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::pose::Posture;
 use crate::synthesis::semi_procedural::Deformation;
 
@@ -23,6 +24,8 @@ pub(crate) enum ActiveMotion<'a> {
     },
     /// Semi-procedural locomotion as it is drawn.
     SemiProcedural(Deformation<'a>),
+    /// A recorded transition.
+    Transition(PlayedTransition),
 }
 
 impl ActiveMotion<'_> {
@@ -45,6 +48,10 @@ impl ActiveMotion<'_> {
                 &db.skeleton,
             ),
             Self::SemiProcedural(deformation) => deformation.posture(db, phase),
+            Self::Transition(played) => {
+                let frame = played.at(db, phase);
+                Posture::new(frame.pose, frame.contacts, &db.skeleton)
+            }
         }
     }
 
@@ -53,14 +60,16 @@ impl ActiveMotion<'_> {
         match self {
             Self::Blending { current, .. } => current.contacts(&context.db, phase),
             Self::SemiProcedural(deformation) => deformation.contacts(&context.db, phase),
+            Self::Transition(played) => played.at(&context.db, phase).contacts,
         }
     }
 
     /// φ', 1/s.
-    pub(crate) fn phase_rate_hz(&self, phase: f32) -> f32 {
+    pub(crate) fn phase_rate_hz(&self, context: &SynthesisContext, phase: f32) -> f32 {
         match self {
             Self::Blending { drawn, .. } => drawn.phase_rate_hz,
             Self::SemiProcedural(deformation) => deformation.phase_map().rate_hz(phase),
+            Self::Transition(played) => played.phase_rate_hz(&context.db),
         }
     }
 
@@ -69,6 +78,7 @@ impl ActiveMotion<'_> {
         match self {
             Self::Blending { current, .. } => current.time_to_landing_s(&context.db, phase, side, PLANTED_CONTACT),
             Self::SemiProcedural(deformation) => deformation.time_to_landing_s(phase, side),
+            Self::Transition(played) => played.time_to_landing_s(&context.db, side),
         }
     }
 
@@ -77,6 +87,7 @@ impl ActiveMotion<'_> {
         match self {
             Self::Blending { current, .. } => current.examples_slide_cm_s(&context.db),
             Self::SemiProcedural(deformation) => deformation.examples_slide_cm_s(&context.db),
+            Self::Transition(played) => played.slide_cm_s(&context.db),
         }
     }
 }

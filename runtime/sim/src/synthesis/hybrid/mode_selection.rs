@@ -60,7 +60,7 @@ impl ModeSelection {
     /// Eq. 1.
     fn by_threat(&self, plan: &Plan, thresholds: &ModeThresholds) -> Mode {
         let [time_margin, density_margin] = match self.mode {
-            Mode::Blending => [1.0, 1.0],
+            Mode::Blending | Mode::Transition => [1.0, 1.0],
             Mode::SemiProcedural => [TIME_MARGIN, DENSITY_MARGIN],
         };
         let free = plan.time_to_collision_s >= time_margin * thresholds.transition_s

@@ -15,6 +15,7 @@ use crate::synthesis::hybrid::active_motion::ActiveMotion;
 use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::inertialization::Inertialization;
 use crate::synthesis::hybrid::mode_selection::ModeSelection;
+use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::hybrid::step_timing::{GaitTiming, StepTiming};
 use crate::synthesis::semi_procedural::deformation::Tempo;
@@ -24,7 +25,7 @@ use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
 /// The active motion, the drawn motion that follows it, and the pose offset of the last switch.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionState {
-    /// Active mode: blending or semi-procedural.
+    /// Active mode.
     pub mode: Mode,
     /// Synthesis that is to move the body.
     pub(crate) selection: ModeSelection,
@@ -42,6 +43,8 @@ pub struct MotionState {
     pub(crate) timing: StepTiming,
     /// The idle in which the body stands.
     pub(crate) idle: IdleClock,
+    /// The recorded transition of [`Mode::Transition`], otherwise none.
+    pub(crate) transition: Option<PlayedTransition>,
     /// Whether the motion has jumped since the last pose, which inertialization carries.
     pub(crate) has_jumped: bool,
     /// What the body does unlike others; it never changes.
@@ -65,6 +68,7 @@ impl MotionState {
             smoothed: [SmoothedMotion::standing(mix); 2],
             timing: StepTiming::default(),
             idle: IdleClock::drawn(&context.db, phase),
+            transition: None,
             has_jumped: false,
             traits,
             inertialization: Inertialization::default(),
@@ -74,7 +78,7 @@ impl MotionState {
     /// What the motion does now.
     pub(crate) fn current(&self, db: &MotionDb) -> Parameters {
         match self.mode {
-            Mode::Blending => self.mix.parameters(db),
+            Mode::Blending | Mode::Transition => self.mix.parameters(db),
             Mode::SemiProcedural => self.parameters,
         }
     }
@@ -98,13 +102,14 @@ impl MotionState {
         idle: IdleClock,
         phase: f32,
     ) -> ActiveMotion<'a> {
-        match (self.mode, &context.hybrid) {
-            (Mode::SemiProcedural, Some(hybrid)) => {
+        match (self.mode, &context.hybrid, self.transition) {
+            (Mode::SemiProcedural, Some(hybrid), _) => {
                 let SmoothedMotion { parameters, travel, .. } = *smoothed;
                 let cadence = self.traits.cadence;
                 let deformation = Deformation::travelling(&hybrid.base_walk, parameters, travel, cadence);
                 ActiveMotion::SemiProcedural(deformation)
             }
+            (_, _, Some(played)) => ActiveMotion::Transition(played),
             _ => ActiveMotion::Blending {
                 drawn: smoothed.mix.weights(&context.db, phase),
                 current: self.mix.weights(&context.db, phase),
@@ -123,8 +128,8 @@ impl MotionState {
     ) -> Parameters {
         match (self.mode, self.selection.mode, &context.hybrid) {
             (Mode::SemiProcedural, Mode::SemiProcedural, _) => command.filter.command,
-            (Mode::SemiProcedural, Mode::Blending, _) => self.committed(context).unwrap_or(reachable.parameters),
-            (Mode::Blending, selected, hybrid) => {
+            (Mode::SemiProcedural, _, _) => self.committed(context).unwrap_or(reachable.parameters),
+            (Mode::Blending | Mode::Transition, selected, hybrid) => {
                 let steps =
                     || command.step_state.target(reachable, self.current(&context.db), &context.domain, &self.traits);
                 let target = self.committed(context).unwrap_or_else(steps);
@@ -144,7 +149,7 @@ impl MotionState {
         dt_s: f32,
     ) {
         match self.mode {
-            Mode::Blending => {
+            Mode::Blending | Mode::Transition => {
                 let (step_state, traits) = (command.step_state, &self.traits);
                 weight_transition::follow(&mut self.mix, target, reachable, step_state, traits, context, dt_s);
             }
@@ -154,8 +159,31 @@ impl MotionState {
         }
     }
 
+    /// Advances the phase over one step, at a factor on its rate, while the motion moves toward a target; the pace and
+    /// the lead of the steps follow.
+    pub(crate) fn take_steps(
+        &mut self,
+        root: &Root,
+        target: Parameters,
+        rate_factor: f32,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
+        let Some(mut played) = self.transition else {
+            self.time_steps(root, target, context, step);
+            return self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
+        };
+        let (db, forward) = (&context.db, root.forward());
+        let Parameters { speed_mps, strafe_mps, .. } = self.current(db);
+        let (velocity_mps, to_local) = (Vec2::new(speed_mps, strafe_mps), Vec2::new(forward.x, -forward.y));
+        let pace = played.pace(velocity_mps, to_local.rotate(self.timing.lead_m), db);
+        let moved_m = played.advance(step.dt_s * pace, db) - step.dt_s * velocity_mps;
+        self.timing.follow_clip(pace, forward.rotate(moved_m));
+        (self.phase, self.transition) = (played.phase(db), Some(played));
+    }
+
     /// Lets the pace of the steps follow the motion, which moves toward a target, over one step.
-    pub(crate) fn time_steps(&mut self, root: &Root, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
+    fn time_steps(&mut self, root: &Root, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
         let mean_hz = match self.deformed(context) {
             Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
             None => self.mix.strides_hz(&context.db),
@@ -177,7 +205,7 @@ impl MotionState {
     /// Parameters of the drawn motion.
     pub(crate) fn drawn_parameters(&self, db: &MotionDb) -> Parameters {
         match self.mode {
-            Mode::Blending => self.smoothed[0].mix.parameters(db),
+            Mode::Blending | Mode::Transition => self.smoothed[0].mix.parameters(db),
             Mode::SemiProcedural => self.smoothed[0].parameters,
         }
     }
@@ -188,12 +216,17 @@ impl MotionState {
         Vec2::new(speed_mps, strafe_mps)
     }
 
+    /// Acceleration of the root in the clip of a recorded transition, in the body's frame, m/s²; 0 outside one.
+    pub(crate) fn clip_acceleration_mps2(&self, db: &MotionDb) -> Vec2 {
+        self.transition.map_or(Vec2::ZERO, |played| played.acceleration_mps2(db))
+    }
+
     fn tempo<'a>(&self, base_walk: &'a BaseWalk, parameters: Parameters) -> Tempo<'a> {
         Tempo::new(base_walk, parameters, self.smoothed[0].travel, self.traits.cadence)
     }
 
     /// Advances the phase by a duration of the motion's own time, s.
-    pub(crate) fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
+    fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
         self.phase = match self.deformed(context) {
             Some((base_walk, parameters)) => {
                 let map = self.tempo(base_walk, parameters).phase_map();

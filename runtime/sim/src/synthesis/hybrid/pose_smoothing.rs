@@ -49,7 +49,7 @@ impl SmoothedMotion {
     ) -> bool {
         let fraction = 1.0 - step.smoothing_left;
         let drawn = match mode {
-            Mode::Blending => {
+            Mode::Blending | Mode::Transition => {
                 self.mix.approach_mix(mix, fraction);
                 self.mix.parameters(db)
             }

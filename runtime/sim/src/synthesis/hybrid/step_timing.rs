@@ -89,6 +89,19 @@ impl StepTiming {
     }
 }
 
+impl StepTiming {
+    /// Follows a clip: its pace, and how far it has moved ahead of the root, world, m.
+    pub(crate) fn follow_clip(&mut self, pace: f32, ahead_m: Vec2) {
+        self.pace = pace;
+        self.lead_m = (self.lead_m + ahead_m).clamp_length_max(LEAD_MAX_M);
+    }
+
+    /// Whether the lead is as great as it may be.
+    pub(crate) fn leads_too_far(&self) -> bool {
+        self.lead_m.length() >= 0.999 * LEAD_MAX_M
+    }
+}
+
 /// What the timing of steps depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GaitTiming {

@@ -1,5 +1,5 @@
 //! Switching (`FbCrowd` §3.4.1, App. 10): when one synthesis replaces the other, at which phase, and what it leaves to
-//! inertialization.
+//! inertialization; and where a recorded transition begins and ends.
 //!
 //! Root frame (x forward, y left, z up), metres; parameters in m/s and rad/s.
 
@@ -11,6 +11,7 @@ use crate::planning::plan::Plan;
 use crate::synthesis::blending::ExampleMix;
 use crate::synthesis::hybrid::mode_selection::ModeThresholds;
 use crate::synthesis::hybrid::motion_state::MotionState;
+use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::library::HybridData;
 use crate::synthesis::{HmsParams, Mode, SynthesisContext, TimeStep, Transition};
 
@@ -19,12 +20,19 @@ use crate::synthesis::{HmsParams, Mode, SynthesisContext, TimeStep, Transition};
 const SWITCH_TOLERANCE: f32 = 0.05;
 /// Offsets from a pair of T among which a switch takes the phase of the most similar poses.
 const PHASE_OFFSETS: [f32; 7] = [0.0, -0.02, 0.02, -0.04, 0.04, -0.06, 0.06];
+/// Number of phases, all over the cycle, among which a body that leaves a recorded transition early takes the most similar.
+const CYCLE_PHASES: u8 = 32;
 
 impl MotionState {
     /// m_mb's parameters while the body changes synthesis by the paper's transition: it is committed to them.
     pub(crate) fn committed(&self, context: &SynthesisContext) -> Option<Parameters> {
-        let changes = self.mode != self.selection.mode && context.params.transition == Transition::ThroughMMb;
+        let changes = self.changes_mode() && context.params.transition == Transition::ThroughMMb;
         context.hybrid.as_ref().filter(|_| changes).map(|hybrid| hybrid.partner)
+    }
+
+    /// Whether the selected synthesis is to replace the active one. A recorded transition is played to its end first.
+    fn changes_mode(&self) -> bool {
+        self.mode != self.selection.mode && self.mode != Mode::Transition
     }
 
     /// §3.4.1: selects the synthesis. `walks_on` is true if the body walks and is to continue.
@@ -43,7 +51,7 @@ impl MotionState {
     /// walks at the velocity of m_mb.
     pub(crate) fn switch(&mut self, phase_before: f32, context: &SynthesisContext, step: &TimeStep) {
         let (from, to) = (self.mode, self.selection.mode);
-        let Some(hybrid) = context.hybrid.as_ref().filter(|_| from != to) else { return };
+        let Some(hybrid) = context.hybrid.as_ref().filter(|_| self.changes_mode()) else { return };
         let Some(phase_jump) = hybrid.phase_jump(from, phase_before, self.phase) else { return };
         if !self.may_switch(hybrid, context) {
             return;
@@ -51,7 +59,8 @@ impl MotionState {
         let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
         self.jump(context, step, |motion| {
             motion.take_over(to, context);
-            motion.phase = motion.most_similar_phase(&soles_m, motion.phase + phase_jump, context);
+            let phases = PHASE_OFFSETS.map(|offset| wrapped(motion.phase + phase_jump + offset));
+            motion.phase = motion.most_similar_phase(&soles_m, phases, context);
         });
     }
 
@@ -59,7 +68,7 @@ impl MotionState {
     fn may_switch(&self, hybrid: &HybridData, context: &SynthesisContext) -> bool {
         let current = self.current(&context.db);
         let reached = self.committed(context).unwrap_or_else(|| match self.mode {
-            Mode::Blending => hybrid.base_walk.reachable(current),
+            Mode::Blending | Mode::Transition => hybrid.base_walk.reachable(current),
             Mode::SemiProcedural => context.domain.reachable_with(current, self.traits.cadence).parameters,
         });
         current.to_vec3().distance(reached.to_vec3()) <= SWITCH_TOLERANCE
@@ -74,7 +83,7 @@ impl MotionState {
                     smoothed.parameters = smoothed.mix.parameters(&context.db);
                 }
             }
-            Mode::Blending => {
+            Mode::Blending | Mode::Transition => {
                 let reachable = context.domain.reachable_with(self.parameters, self.traits.cadence);
                 self.mix = ExampleMix::played(&reachable.shares, reachable.playback_rate);
                 // Smoothing starts without a lag: inertialization carries what the old pose still lagged.
@@ -84,25 +93,56 @@ impl MotionState {
         self.mode = mode;
     }
 
-    /// The phase near another at which the soles are nearest to `soles_m`. T compares m_sp with m_mb; a mix, or another
+    /// The one of some phases at which the soles are nearest to `soles_m`. T compares m_sp with m_mb; a mix, or another
     /// speed, is most similar a little earlier or later.
-    fn most_similar_phase(&self, soles_m: &[[Vec3; 3]; 2], near: f32, context: &SynthesisContext) -> f32 {
+    fn most_similar_phase(
+        &self,
+        soles_m: &[[Vec3; 3]; 2],
+        phases: impl IntoIterator<Item = f32>,
+        context: &SynthesisContext,
+    ) -> f32 {
         let distance_m2 = |phase: f32| {
             let active = self.drawn(context, &self.smoothed[0], self.idle, phase);
             let there_m = active.posture(context, phase).soles_m(&context.db.skeleton);
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
         };
-        let phases = PHASE_OFFSETS.map(|offset| wrapped(near + offset));
-        let distances_m2 = phases.map(distance_m2);
-        let nearest =
-            (1..phases.len()).fold(0, |best, at| if distances_m2[at] < distances_m2[best] { at } else { best });
-        phases[nearest]
+        let distances_m2 = phases.into_iter().map(|phase| (phase, distance_m2(phase)));
+        distances_m2.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(self.phase, |(phase, _)| phase)
+    }
+
+    /// Begins a recorded transition, which gives the pose from now on.
+    pub(crate) fn begin_transition(&mut self, action: u32, context: &SynthesisContext, step: &TimeStep) {
+        let played = PlayedTransition::begin(action);
+        self.jump(context, step, |motion| {
+            (motion.mode, motion.transition) = (Mode::Transition, Some(played));
+            motion.phase = played.phase(&context.db);
+        });
+    }
+
+    /// Ends the recorded transition: at its end, where the body would be drawn too far from its root, and where the body
+    /// stands. The cycle goes on, at the phase of the clip or, before its end, of the most similar pose.
+    pub(crate) fn end_transition(&mut self, stands: bool, context: &SynthesisContext, step: &TimeStep) {
+        let Some(played) = self.transition else { return };
+        let is_over = played.is_over(&context.db);
+        if !(is_over || stands || self.timing.leads_too_far()) {
+            return;
+        }
+        let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
+        self.jump(context, step, |motion| {
+            (motion.mode, motion.transition) = (Mode::Blending, None);
+            if !is_over {
+                let phases = (0..CYCLE_PHASES).map(|index| f32::from(index) / f32::from(CYCLE_PHASES));
+                motion.phase = motion.most_similar_phase(&soles_m, phases, context);
+            }
+        });
     }
 
     /// Reverses the gait: it plays backward in time from now on.
     pub(crate) fn reverse(&mut self) {
-        self.phase = wrapped(1.0 - self.phase);
+        if self.mode != Mode::Transition {
+            self.phase = wrapped(1.0 - self.phase);
+        }
         self.smoothed[0].reverse();
     }
 
@@ -119,7 +159,7 @@ impl MotionState {
     fn poses(&self, context: &SynthesisContext, step: &TimeStep) -> [Pose; 2] {
         let active = self.active(context);
         let earlier_phase =
-            wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(self.phase));
+            wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(context, self.phase));
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
         let mut earlier_idle = self.idle;

@@ -3,11 +3,12 @@
 //!
 //! Enters: a motion database and the tunables. Leaves: the synthesis context that every step of every body reads.
 //!
-//! Read `synthesis_context`, then its parts: `augmented_database` with `standing`, and `hybrid_data`.
+//! Read `synthesis_context`, then its parts: `augmented_database` with `standing`, `starts`, and `hybrid_data`.
 
 pub(crate) mod augmented_database;
 pub(crate) mod hybrid_data;
 pub(crate) mod standing;
+pub(crate) mod starts;
 pub(crate) mod synthesis_context;
 
 pub use augmented_database::{augmented, deformed_walk};

@@ -10,6 +10,7 @@ use crate::synthesis::HmsParams;
 use crate::synthesis::blending::BlendDomain;
 use crate::synthesis::library::augmented_database::{augmented, walk};
 use crate::synthesis::library::hybrid_data::HybridData;
+use crate::synthesis::library::starts::Starts;
 use crate::synthesis::pose::LackingMotion;
 use crate::synthesis::pose::squeeze::shoulder_breadth_m;
 
@@ -35,6 +36,8 @@ pub struct SynthesisContext {
     pub domain: BlendDomain,
     /// Data of hybrid synthesis; `None` where bodies only blend.
     pub hybrid: Option<HybridData>,
+    /// Recorded starts.
+    pub(crate) starts: Starts,
     /// Mean rotation of each joint in the base walk, or in the first example where none walks.
     pub mean_rotations: [Quat; JOINT_COUNT],
     /// Strides per second of the base walk.
@@ -62,7 +65,8 @@ impl SynthesisContext {
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
         let base_mps = db.examples[base].parameters.speed_mps.abs().max(f32::MIN_POSITIVE);
         let (lacking, shoulder_breadth_m) = (LackingMotion::of(&db, base), shoulder_breadth_m(&db.skeleton));
-        Self { lacking, shoulder_breadth_m, domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
+        let starts = Starts::of(&db);
+        Self { starts, lacking, shoulder_breadth_m, domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
     }
 }
 

@@ -40,11 +40,12 @@ pub(crate) struct Lean {
 }
 
 impl Lean {
-    /// Follows the drawn motion over one step.
-    pub(crate) fn follow(&mut self, drawn: &Parameters, step: &TimeStep) {
+    /// Follows the drawn motion over one step. `clip_mps2` is the part of its acceleration into which the trunk leans in
+    /// the clip that is played.
+    pub(crate) fn follow(&mut self, drawn: &Parameters, clip_mps2: Vec2, step: &TimeStep) {
         let velocity_mps = Vec2::new(drawn.speed_mps, drawn.strafe_mps);
         let turning_mps2 = drawn.turn_rate_rad_s * velocity_mps.perp();
-        let acceleration_mps2 = (velocity_mps - self.velocity_mps) / step.dt_s + turning_mps2;
+        let acceleration_mps2 = (velocity_mps - self.velocity_mps) / step.dt_s + turning_mps2 - clip_mps2;
         self.velocity_mps = velocity_mps;
         let target_rad = TILT_RAD_PER_MPS2 * acceleration_mps2.clamp_length_max(ACCELERATION_MAX_MPS2);
         let [tilt_rad, rate, acceleration] = self.tilt_rad;
@@ -90,7 +91,7 @@ mod tests {
     fn tilts_deg(seconds: f32, dt_s: f32, motion: impl Fn(f32) -> Parameters) -> Vec<Vec2> {
         let (mut lean, step) = (Lean::default(), TimeStep::new(dt_s));
         let mut tilt_deg = |index: usize| {
-            lean.follow(&motion(index as f32 * dt_s), &step);
+            lean.follow(&motion(index as f32 * dt_s), Vec2::ZERO, &step);
             lean.tilt_rad[0] * 1_f32.to_degrees()
         };
         (1..=(seconds / dt_s).round() as usize).map(&mut tilt_deg).collect()

@@ -70,12 +70,13 @@ fn steps(people: &PeopleMeasures) -> Vec<(String, String)> {
     lines.push(line(
         "starts",
         format!(
-            "{} to 90 % of the speed, {}, peak {}, lean {}, of {}",
+            "{} to 90 % of the speed, {}, peak {}, lean {}, of {}, {}",
             number(starts.duration_s, " s"),
             number(starts.acceleration_mps2, " m/s²"),
             number(starts.peak_mps2, " m/s²"),
             number(starts.lean_deg_per_mps2, "° per m/s²"),
-            starts.count
+            starts.count,
+            number(starts.recorded_share.map(|share| 100.0 * share), " % recorded")
         ),
     ));
     lines.push(line(

@@ -39,12 +39,14 @@ pub struct Starts {
     pub peak_mps2: Option<f64>,
     /// Median lean, degrees per m/s²; none without starts.
     pub lean_deg_per_mps2: Option<f64>,
+    /// Share of the starts that play a recorded transition for more than half of their duration; none without starts.
+    pub recorded_share: Option<f64>,
 }
 
-/// Duration, mean and peak acceleration, and lean of every start.
+/// Duration, mean and peak acceleration and lean of every start, and 1 where it plays a recorded transition.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StartTally {
-    starts: Vec<[f64; 4]>,
+    starts: Vec<[f64; 5]>,
 }
 
 impl StartTally {
@@ -65,12 +67,13 @@ impl StartTally {
             acceleration_mps2: middle(1),
             peak_mps2: middle(2),
             lean_deg_per_mps2: middle(3),
+            recorded_share: mean(self.starts.iter().map(|start| start[4])),
         }
     }
 }
 
 /// The start after a rest that ends with the frame `rest`.
-fn start(track: &BodyTrack, speeds_mps: &[f64], rest: usize) -> Option<[f64; 4]> {
+fn start(track: &BodyTrack, speeds_mps: &[f64], rest: usize) -> Option<[f64; 5]> {
     let [from, to] = WALK_S.map(|time_s| rest + track.count(time_s));
     let to = to.min(speeds_mps.len());
     let walk_mps = speeds_mps.get(from..to).filter(|walk_mps| walk_mps.len() >= track.count(WALK_MIN_S))?;
@@ -84,7 +87,9 @@ fn start(track: &BodyTrack, speeds_mps: &[f64], rest: usize) -> Option<[f64; 4]>
     let tilt_deg = |index: usize| tilt_deg(track, index);
     let starting_deg = mean((rest..full).map(tilt_deg))?;
     let walking_deg = mean((full..(full + track.count(1.0)).min(speeds_mps.len())).map(tilt_deg))?;
-    Some([duration_s, acceleration_mps2, peak_mps2, (starting_deg - walking_deg) / acceleration_mps2])
+    let recorded = (rest..full).filter(|&index| track.samples[index].in_transition).count();
+    let is_recorded = f64::from(u8::from(2 * recorded > full - rest));
+    Some([duration_s, acceleration_mps2, peak_mps2, (starting_deg - walking_deg) / acceleration_mps2, is_recorded])
 }
 
 /// Forward tilt of the trunk in the direction that the body faces, degrees.
