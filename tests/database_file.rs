@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use glam::Vec2;
 use motiondb::files::container::{self, HEADER_LENGTH};
 use motiondb::files::database_file;
 use motiondb::motion::{MotionDb, PHASE_COUNT};
@@ -184,7 +183,7 @@ fn caught(db: &MotionDb, factor: f32) -> (usize, Vec<String>) {
     for index in 0..db.examples.len() {
         let mut forged = db.clone();
         let example = &mut forged.examples[index];
-        if Vec2::new(example.parameters.speed_mps, example.parameters.strafe_mps).length() < 0.5 {
+        if example.parameters.velocity_mps().length() < 0.5 {
             continue;
         }
         example.parameters.speed_mps *= factor;

@@ -1,6 +1,6 @@
 //! The three parameters of a motion (`FbCrowd` §3.1): forward speed v_f, turn rate ω_t and side speed ω_s.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// A point (v_f, ω_t, ω_s): how a motion moves the root, in the root frame.
@@ -31,6 +31,11 @@ impl Parameters {
     /// The point of a vector (v_f, ω_t, ω_s).
     pub fn from_vec3(point: Vec3) -> Self {
         Self { speed_mps: point.x, turn_rate_rad_s: point.y, strafe_mps: point.z }
+    }
+
+    /// Velocity (v_f, ω_s) of the root, in the root frame: forward and left, m/s.
+    pub fn velocity_mps(self) -> Vec2 {
+        Vec2::new(self.speed_mps, self.strafe_mps)
     }
 
     /// Parameters of the mirrored motion.

@@ -207,7 +207,7 @@ fn meets(db: &MotionDb, end: ActionEnd, [from, to]: [&Root; 2], word: &str) -> C
     let wanted = db.examples[end.example as usize].parameters;
     let middle_rad = 0.5 * (from.facing_rad + to.facing_rad);
     let velocity_mps = Vec2::from_angle(-middle_rad).rotate(to.position_m - from.position_m) * ACTION_RATE_HZ;
-    let off_mps = velocity_mps.distance(Vec2::new(wanted.speed_mps, wanted.strafe_mps));
+    let off_mps = velocity_mps.distance(wanted.velocity_mps());
     let off_rad_s = ((to.facing_rad - from.facing_rad) * ACTION_RATE_HZ - wanted.turn_rate_rad_s).abs();
     ensure(off_mps <= VELOCITY_TOLERANCE_MPS && off_rad_s <= TURN_RATE_TOLERANCE_RAD_S, || {
         format!("at the {word} frame the root differs from its example by {off_mps} m/s and {off_rad_s} rad/s")

@@ -81,7 +81,7 @@ pub fn turning_point_mps(parameters: &Parameters) -> Vec2 {
 
 /// Point of a holding example in the agent's frame, m/s.
 pub fn holding_point_mps(parameters: &Parameters) -> Vec2 {
-    Vec2::new(parameters.speed_mps, parameters.strafe_mps)
+    parameters.velocity_mps()
 }
 
 /// Whether an example belongs to the turning set.

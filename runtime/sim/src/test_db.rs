@@ -142,7 +142,7 @@ fn stance(example: &MotionExample, time_s: f32, side: usize, pitch_rad: f32) -> 
 fn arc_m(parameters: &Parameters, time_s: f32) -> Vec2 {
     let half = 0.5 * parameters.turn_rate_rad_s * time_s;
     let chord = if half.abs() > 1e-4 { libm::sinf(half) / half } else { 1.0 };
-    Vec2::from_angle(half).rotate(Vec2::new(parameters.speed_mps, parameters.strafe_mps)) * time_s * chord
+    Vec2::from_angle(half).rotate(parameters.velocity_mps()) * time_s * chord
 }
 
 /// A swinging foot, `share` of its swing done.

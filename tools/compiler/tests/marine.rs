@@ -188,7 +188,7 @@ fn feet_are_under_the_body_at_their_mid_stance() {
 
 /// Unit vector of an example's motion in the root frame.
 fn travel(example: &MotionExample) -> glam::Vec2 {
-    glam::Vec2::new(example.parameters.speed_mps, example.parameters.strafe_mps).normalize_or(glam::Vec2::X)
+    example.parameters.velocity_mps().normalize_or(glam::Vec2::X)
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub fn parameters_between(from: &Root, to: &Root, dt_s: f32) -> Parameters {
 /// Displacement along an arc, in the frame at half the turn, m.
 #[inline]
 fn chord_m(parameters: &Parameters, time_s: f32, half_turn_rad: f32) -> Vec2 {
-    Vec2::new(parameters.speed_mps, parameters.strafe_mps) * time_s * chord_over_arc(half_turn_rad)
+    parameters.velocity_mps() * time_s * chord_over_arc(half_turn_rad)
 }
 
 /// Length of the chord, divided by that of the arc.

@@ -2,7 +2,6 @@
 
 use glam::Vec2;
 use motiondb::body::{Pose, Root};
-use motiondb::motion::Parameters;
 
 use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
@@ -85,7 +84,7 @@ impl Body {
     /// Velocity that replaces the planned one, world, m/s: that of m_mb in the paper's transition between the
     /// syntheses.
     pub fn committed_mps(&self, context: &SynthesisContext) -> Option<Vec2> {
-        let Parameters { speed_mps, strafe_mps, .. } = self.motion.committed(context)?;
-        Some(Vec2::from_angle(self.root.facing_rad).rotate(Vec2::new(speed_mps, strafe_mps)))
+        let committed = self.motion.committed(context)?;
+        Some(Vec2::from_angle(self.root.facing_rad).rotate(committed.velocity_mps()))
     }
 }

@@ -16,7 +16,8 @@
 //!
 //! `synthesize` makes the pose:
 //!
-//! 8. `active_motion`: blending, semi-procedural locomotion or a recorded transition gives a posture, to which the pose offset is added;
+//! 8. `active_motion`: blending, semi-procedural locomotion or a recorded transition gives a posture, to which the pose
+//!    offset is added;
 //! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
 //!    chest turn; shoulders turn in gaps; the trunk leans;
 //! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the

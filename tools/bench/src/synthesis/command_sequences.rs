@@ -72,7 +72,7 @@ impl Command {
             }
             Self::Walk(parameters) if turns_velocity => plan_requesting(parameters, root, params),
             Self::Walk(parameters) => {
-                let local_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+                let local_mps = parameters.velocity_mps();
                 let velocity_mps = Vec2::from_angle(root.facing_rad).rotate(local_mps);
                 Plan { velocity_mps, ..plan_requesting(parameters, root, params) }
             }

@@ -137,7 +137,7 @@ fn reached_direction(
         turn_rate_deg_s,
         speed_mps: None,
         ends_by: None,
-        used_mps: Vec2::new(used.speed_mps, used.strafe_mps).length(),
+        used_mps: used.velocity_mps().length(),
         wrong_where_used: fault(used),
     };
     for step in 0..=(SPEED_MAX_MPS / STEP_MPS) as usize {

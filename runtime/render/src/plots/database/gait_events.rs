@@ -115,7 +115,7 @@ fn sole_curves(db: &MotionDb, example: usize, side: Side) -> [Vec<f32>; 2] {
         let at_m = |row: usize| soles[row % PHASE_COUNT][point].truncate();
         let steps_s = [row + PHASE_COUNT - 1, row + PHASE_COUNT + 1].map(|row| time_s(found, row));
         let in_root_mps = (at_m(row + 1) - at_m(row + PHASE_COUNT - 1)) / (steps_s[1] - steps_s[0]);
-        let root_mps = Vec2::new(found.parameters.speed_mps, found.parameters.strafe_mps);
+        let root_mps = found.parameters.velocity_mps();
         (root_mps + found.parameters.turn_rate_rad_s * at_m(row).perp() + in_root_mps).length()
     };
     [(0..=PHASE_COUNT).map(height_m).collect(), (0..=PHASE_COUNT).map(speed_mps).collect()]

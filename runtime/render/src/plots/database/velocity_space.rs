@@ -87,7 +87,7 @@ fn points_mps(example: &MotionExample) -> [Option<(PlotMark, Rgb, Vec2)>; 2] {
     let [turning_mark, holding_mark] =
         if example.mirrored { [PlotMark::Ring, PlotMark::OpenDiamond] } else { [PlotMark::Disc, PlotMark::Diamond] };
     let turning = is_turning(parameters).then(|| (turning_mark, TURNING_SET, turning_point_mps(parameters)));
-    let held = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+    let held = parameters.velocity_mps();
     let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((holding_mark, HOLDING_SET, held));
     [turning, holding]
 }

@@ -3,7 +3,7 @@
 //! A query is (v_f, ω_t, ω_s), m/s and rad/s. The answer holds the nearest parameters that the examples reach and the
 //! shares of the examples (`FbCrowd` §5, App. 10). An example without steps *stands*.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use motiondb::blend_space::{Locator, MAX_CORNERS, Shares};
 use motiondb::motion::{MotionDb, Parameters};
 use motiondb::velocity_sets::velocity_hull::is_holding;
@@ -78,7 +78,7 @@ impl BlendDomain {
             axis_scale: db.blend_space.scaled(Parameters::from_vec3(Vec3::ONE)),
             strafe_range_mps: strafe_range_mps(&parameters),
             turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
-            speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
+            speed_max_mps: greatest(|point| point.velocity_mps().length()),
             locator: Locator::new(&db.blend_space, &parameters),
             parameters,
         };
@@ -102,7 +102,7 @@ impl BlendDomain {
     /// The nearest point to a query that a body reaches with `cadence` times the cadence of others. Where the examples
     /// reach it only at a greater rate than that body's, they play at that one, up to 1: long strides yield first.
     pub(crate) fn reachable_with(&self, query: Parameters, cadence: f32) -> Reachable {
-        let speed_mps = Vec2::new(query.speed_mps, query.strafe_mps).length();
+        let speed_mps = query.velocity_mps().length();
         let mut reachable = self.played(query, self.cadence.playback_rate(speed_mps, cadence));
         for _ in 0..RATE_ITERATIONS {
             if reachable.playback_rate >= 1.0 {

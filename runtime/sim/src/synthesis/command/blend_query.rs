@@ -65,7 +65,7 @@ pub(crate) fn requested_of_base_walk(
 pub fn plan_requesting(requested: Parameters, root: &Root, params: &HmsParams) -> Plan {
     let turn_rad = requested.turn_rate_rad_s * params.turn_time_s;
     let facing_rad = root.facing_rad + turn_rad;
-    let velocity_mps = Vec2::new(requested.speed_mps, requested.strafe_mps) / libm::cosf(turn_rad);
+    let velocity_mps = requested.velocity_mps() / libm::cosf(turn_rad);
     Plan {
         velocity_mps: Vec2::from_angle(facing_rad).rotate(velocity_mps),
         facing_rad,

@@ -7,7 +7,6 @@
 //!
 //! Parameters are (v_f, ω_t, ω_s) in the body's frame, m/s and rad/s; shares are shares of time.
 
-use glam::Vec2;
 use motiondb::blend_space::Shares;
 use motiondb::motion::Parameters;
 
@@ -127,7 +126,7 @@ impl StepState {
 
 /// Greatest share of standing that a speed counts as.
 fn idle_share_max(parameters: Parameters) -> f32 {
-    1.0 - Vec2::new(parameters.speed_mps, parameters.strafe_mps).length() / SLOWEST_WALK_MAX_MPS
+    1.0 - parameters.velocity_mps().length() / SLOWEST_WALK_MAX_MPS
 }
 
 #[cfg(test)]

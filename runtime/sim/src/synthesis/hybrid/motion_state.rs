@@ -169,16 +169,21 @@ impl MotionState {
         context: &SynthesisContext,
         step: &TimeStep,
     ) {
-        let Some(mut played) = self.transition else {
-            self.time_steps(root, target, context, step);
-            return self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
-        };
-        let (db, forward) = (&context.db, root.forward());
-        let Parameters { speed_mps, strafe_mps, .. } = self.current(db);
-        let (velocity_mps, to_local) = (Vec2::new(speed_mps, strafe_mps), Vec2::new(forward.x, -forward.y));
+        match self.transition {
+            Some(played) => self.play(played, root.forward(), &context.db, step),
+            None => {
+                self.time_steps(root, target, context, step);
+                self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
+            }
+        }
+    }
+
+    /// Plays a recorded transition over one step, under a root that faces `forward`.
+    fn play(&mut self, mut played: PlayedTransition, forward: Vec2, db: &MotionDb, step: &TimeStep) {
+        let (velocity_mps, to_local) = (self.current(db).velocity_mps(), Vec2::new(forward.x, -forward.y));
         let pace = played.pace(velocity_mps, to_local.rotate(self.timing.lead_m), db);
-        let moved_m = played.advance(step.dt_s * pace, db) - step.dt_s * velocity_mps;
-        self.timing.follow_clip(pace, forward.rotate(moved_m));
+        let ahead_m = played.advance(step.dt_s * pace, db) - step.dt_s * velocity_mps;
+        self.timing.follow_clip(pace, forward.rotate(ahead_m));
         (self.phase, self.transition) = (played.phase(db), Some(played));
     }
 
@@ -192,7 +197,7 @@ impl MotionState {
             mean_hz,
             base_hz: self.traits.cadence * context.base_hz,
             velocity_mps: root.forward().rotate(self.drawn_mps(&context.db)),
-            speed_to_come: Vec2::new(target.speed_mps, target.strafe_mps).length() / context.base_mps,
+            speed_to_come: target.velocity_mps().length() / context.base_mps,
         };
         self.timing.follow(self.phase, &gait, step);
     }
@@ -212,8 +217,7 @@ impl MotionState {
 
     /// Velocity of the drawn motion in the body's frame, m/s.
     fn drawn_mps(&self, db: &MotionDb) -> Vec2 {
-        let Parameters { speed_mps, strafe_mps, .. } = self.drawn_parameters(db);
-        Vec2::new(speed_mps, strafe_mps)
+        self.drawn_parameters(db).velocity_mps()
     }
 
     /// Acceleration of the root in the clip of a recorded transition, in the body's frame, m/s²; 0 outside one.

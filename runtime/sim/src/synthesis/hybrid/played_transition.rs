@@ -1,28 +1,29 @@
 //! A recorded transition that a body plays: its pose comes from the clip, its root from the plan.
 //!
-//! The root moves as the planner expects, whatever the clip does. So the clip is played at the pace at which its root
-//! moves like the body's root, and makes up for the lead ℓ of the drawn body over its root ([`StepTiming`]). With the
-//! speeds v of the body's root and v_c of the clip's, in the direction in which the transition ends,
+//! The plan alone moves the root; the clip never does. The pace g of the clip is chosen such that the clip's root keeps up
+//! with the body's root. v and v_c are the speeds of both, in the direction in which the transition ends; ℓ is the lead of
+//! the drawn body over its root ([`StepTiming`]):
 //!
 //! ```text
-//! g = (v − ℓ/T + v_0)/(v_c + v_0)
+//! g = (v − ℓ/T + v_0)/(v_c + v_0), within limits.
 //! ```
 //!
-//! within limits; v_0 lets a clip begin at its own pace, when both are at rest. The drawn body moves as the clip does, so planted feet hold. The phase of the body runs along at the
-//! rate of the example at the end, so that there the cycle goes on where the clip meets it.
+//! v_0 lets a clip begin at its own pace, when both roots are at rest. The drawn body moves as the clip does, so planted
+//! feet hold. The phase advances at the mean rate of the example in which the transition ends, and reaches the example's
+//! phase with the last frame.
 //!
 //! Root frames (x forward, y left); metres, seconds.
 //!
 //! [`StepTiming`]: crate::synthesis::hybrid::step_timing::StepTiming
 
 use glam::Vec2;
-use motiondb::motion::{ACTION_RATE_HZ, Action, ActionFrame, MotionDb, wrapped};
+use motiondb::motion::{ACTION_RATE_HZ, Action, ActionFrame, MotionDb, MotionExample, wrapped};
 
 use crate::planning::plan::PLANTED_CONTACT;
 
 /// T: time in which a clip makes up for its lead, s.
 const CATCH_UP_TIME_S: f32 = 0.3;
-/// v_0, m/s.
+/// v_0: speed that is small beside that of a walk, m/s.
 const RESTING_MPS: f32 = 0.2;
 /// Range of the pace g.
 const PACE_RANGE: [f32; 2] = [0.7, 1.5];
@@ -45,13 +46,18 @@ impl PlayedTransition {
     }
 
     /// The transition of the database.
-    pub(crate) fn action<'a>(&self, db: &'a MotionDb) -> &'a Action {
+    fn action<'a>(&self, db: &'a MotionDb) -> &'a Action {
         &db.actions[self.action as usize]
+    }
+
+    /// The example in which the transition ends.
+    fn exit<'a>(&self, db: &'a MotionDb) -> &'a MotionExample {
+        &db.examples[self.action(db).exit.example as usize]
     }
 
     /// Duration of the cycle in which the transition ends, s.
     fn period_s(&self, db: &MotionDb) -> f32 {
-        db.examples[self.action(db).exit.example as usize].phase_map.period_s
+        self.exit(db).phase_map.period_s
     }
 
     /// φ', 1/s.
@@ -74,8 +80,7 @@ impl PlayedTransition {
     /// The pace of the clip, given the velocity of the body's root and the lead of the drawn body over it, in the root's
     /// frame.
     pub(crate) fn pace(&self, velocity_mps: Vec2, lead_m: Vec2, db: &MotionDb) -> f32 {
-        let exit = db.examples[self.action(db).exit.example as usize].parameters;
-        let along = Vec2::new(exit.speed_mps, exit.strafe_mps).normalize_or_zero();
+        let along = self.exit(db).parameters.velocity_mps().normalize_or_zero();
         let wanted_mps = along.dot(velocity_mps - lead_m / CATCH_UP_TIME_S);
         let [least, greatest] = PACE_RANGE;
         ((wanted_mps + RESTING_MPS) / (along.dot(self.velocity_mps(db)) + RESTING_MPS)).clamp(least, greatest)
@@ -97,8 +102,8 @@ impl PlayedTransition {
         Vec2::from_angle(-middle_rad).rotate(to.position_m - from.position_m)
     }
 
-    /// Whether the cycle can go on: from the last mid-stance before the end of the clip, where one foot rests flat on the
-    /// ground and no foot lands soon.
+    /// Whether the cycle can replace the clip: from the last mid-stance of the clip on. One foot then rests flat on the
+    /// ground, and the other does not land soon.
     pub(crate) fn is_over(&self, db: &MotionDb) -> bool {
         let action = self.action(db);
         let since_mid_stance_s = (action.exit.phase % 0.5) * self.period_s(db);
@@ -123,7 +128,7 @@ impl PlayedTransition {
 
     /// Slide of the planted feet of the example in which the transition ends, cm/s.
     pub(crate) fn slide_cm_s(&self, db: &MotionDb) -> f32 {
-        db.examples[self.action(db).exit.example as usize].planted_slide_cm_s
+        self.exit(db).planted_slide_cm_s
     }
 }
 

@@ -1,11 +1,10 @@
-//! Recorded starts of a database: which one a body plays that begins to walk.
+//! Recorded starts of a database, and which of them a body plays when it begins to walk.
 //!
 //! A start is a transition ([`ActionKind::Start`]) from standing to an example. It fits a body whose command points where
 //! the example goes, and whose free foot is the one that the start lifts first.
 //!
 //! Root frame (x forward, y left); sides are 0 left, 1 right.
 
-use glam::Vec2;
 use motiondb::motion::{Action, ActionKind, MotionDb, Parameters};
 
 use crate::planning::plan::PLANTED_CONTACT;
@@ -43,8 +42,8 @@ impl Starts {
 
     /// The action of the start that fits a command, given the foot that is to leave the ground first.
     pub(crate) fn fitting(&self, command: Parameters, first_foot: usize) -> Option<u32> {
-        let direction = velocity_mps(command).normalize_or_zero();
-        let cosine = |start: &RecordedStart| velocity_mps(start.exit).normalize_or_zero().dot(direction);
+        let direction = command.velocity_mps().normalize_or_zero();
+        let cosine = |start: &RecordedStart| start.exit.velocity_mps().normalize_or_zero().dot(direction);
         let fits = |start: &&RecordedStart| {
             start.first_foot == first_foot
                 && cosine(start) >= SAME_DIRECTION
@@ -63,8 +62,4 @@ fn first_foot(action: &Action) -> Option<usize> {
         [Some(left), Some(right)] => Some(usize::from(right < left)),
         [left, _] => Some(usize::from(left.is_none())),
     }
-}
-
-fn velocity_mps(parameters: Parameters) -> Vec2 {
-    Vec2::new(parameters.speed_mps, parameters.strafe_mps)
 }

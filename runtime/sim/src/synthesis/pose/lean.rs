@@ -43,7 +43,7 @@ impl Lean {
     /// Follows the drawn motion over one step. `clip_mps2` is the part of its acceleration into which the trunk leans in
     /// the clip that is played.
     pub(crate) fn follow(&mut self, drawn: &Parameters, clip_mps2: Vec2, step: &TimeStep) {
-        let velocity_mps = Vec2::new(drawn.speed_mps, drawn.strafe_mps);
+        let velocity_mps = drawn.velocity_mps();
         let turning_mps2 = drawn.turn_rate_rad_s * velocity_mps.perp();
         let acceleration_mps2 = (velocity_mps - self.velocity_mps) / step.dt_s + turning_mps2 - clip_mps2;
         self.velocity_mps = velocity_mps;

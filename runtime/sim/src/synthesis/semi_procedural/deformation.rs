@@ -96,7 +96,7 @@ impl<'a> Deformation<'a> {
     /// `quickness` times that of other bodies.
     pub fn travelling(base: &'a BaseWalk, parameters: Parameters, travel: Vec2, quickness: f32) -> Self {
         let tempo = Tempo::new(base, parameters, travel, quickness);
-        let travel_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps).length();
+        let travel_mps = parameters.velocity_mps().length();
         // Greatest turn and side displacement of the root between the landings of both feet.
         let turn_apart_rad = base.carried_apart_s * soft_size(parameters.turn_rate_rad_s) / tempo.cadence;
         let strafe_apart_m = base.carried_apart_s * soft_size(parameters.strafe_mps) / tempo.cadence;
@@ -117,7 +117,7 @@ impl<'a> Deformation<'a> {
 
     /// Drop of the hips against m_sp at which landing feet are in reach, m, as if the root moved straight over them.
     fn needed_landing_drop_m(&self) -> f32 {
-        let stride_mps = Vec2::new(self.parameters.speed_mps, self.parameters.strafe_mps) / self.tempo.cadence;
+        let stride_mps = self.parameters.velocity_mps() / self.tempo.cadence;
         let lean_m = Vec2::new(0.0, self.lean_offset_m());
         let [forward, reversed] =
             self.tempo.base.landings.map(|foot| foot.drop_m(foot.ahead_s * stride_mps + lean_m, self.widening_m));
@@ -308,7 +308,7 @@ impl Instant {
 
 /// Direction of travel, a unit vector; `at_rest` where there is none.
 pub(crate) fn travel_direction(parameters: Parameters, at_rest: Vec2) -> Vec2 {
-    Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(at_rest)
+    parameters.velocity_mps().normalize_or(at_rest)
 }
 
 /// Turns the hips towards the travel, or against a backward one; the spine turns back, so that the chest keeps facing
