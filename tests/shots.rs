@@ -295,6 +295,30 @@ fn a_scenario_takes_its_camera_from_a_gltf_file() {
     let picture = |folder: &Path| fs::read(folder.join("scene.1005.png")).unwrap();
     assert!(picture(&own) == picture(&given));
     render(&["-o", text(&given), "--cameras", text(&file), "--camera", "x"]).expect_code(2).says(&["dolly, plan"]);
+    // A TOML file may hold cameras alone, and its paths are relative to it.
+    fs::create_dir_all(folder.join("cameras")).unwrap();
+    let alone = folder.join("cameras/alone.toml");
+    let with_cameras = |tables: &str, options: &[&str]| {
+        fs::write(&alone, tables).unwrap();
+        render(&[&["-o", text(&given), "--cameras", text(&alone)], options].concat())
+    };
+    fs::remove_file(given.join("scene.1005.png")).unwrap();
+    with_cameras("[camera]\ngltf = \"../shot.gltf\"\nnode = \"plan\"\n", &[]).expect_code(0);
+    assert!(picture(&own) == picture(&given));
+    let still = "eye_m = [0, -4, 1.6]\nlook_at_m = [0, 0, 1]";
+    let two = format!("[view]\nwidth = 48\nheight = 32\n[[cameras]]\nname = \"a\"\n{still}\nfov_deg = 40\n");
+    with_cameras(&two, &["--camera", "a"]).expect_code(0);
+    assert_eq!(picture(&given)[16..24], [0, 0, 0, 48, 0, 0, 0, 32]);
+    with_cameras(&two, &["--camera", "x"]).expect_code(2).says(&["a, default"]);
+    with_cameras(&format!("[camera]\n{still}\nfocal_mm = 0"), &[])
+        .expect_code(2)
+        .says(&["alone.toml:4", "focal_mm is 0"]);
+    with_cameras("[camera]\nfog_m = 9\ngltf = \"no.glb\"", &[]).expect_code(2).says(&["alone.toml:3", "gltf: "]);
+    with_cameras("[view]\nwidth = 48", &[]).expect_code(2).says(&[
+        "alone.toml",
+        "no camera in this file",
+        "add `[camera]`",
+    ]);
     let empty = folder.join("empty.gltf");
     fs::write(&empty, r#"{ "asset": { "version": "2.0" }, "nodes": [{}] }"#).unwrap();
     render(&["-o", text(&given), "--cameras", text(&empty)]).expect_code(2).says(&["no camera in it"]);

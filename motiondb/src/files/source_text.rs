@@ -109,7 +109,8 @@ impl SourceText {
         Invalid { is_quotable: false, ..self.invalid(span, message, "name another file") }
     }
 
-    fn has_a_key(&self, keys: &[&str]) -> bool {
+    /// Whether a line of the text begins with one of some keys.
+    pub fn has_a_key(&self, keys: &[&str]) -> bool {
         let is_end = |letter: char| letter.is_whitespace() || "=.]".contains(letter);
         let mut begins = self.text.lines().map(|line| line.trim_start_matches(['[', ' ', '\t']));
         begins.any(|line| line.split(is_end).next().is_some_and(|key| keys.contains(&key)))

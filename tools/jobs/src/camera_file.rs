@@ -3,7 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario, camera_mistake};
+use fbcrowd_sim::scenario::{
+    CameraFile, CameraKey, CameraSpec, KeyLine, Scenario, View, camera_mistake, read_camera_file,
+};
 use glam::Vec3;
 use motiondb_compiler::Outside;
 use motiondb_compiler::read::gltf::{GltfCamera, GltfCameraKey, GltfLens, read_cameras};
@@ -31,13 +33,41 @@ pub fn cameras_of(path: &Path, aspect: f64, outside: Outside) -> Result<Vec<Came
     Ok(cameras.iter().map(|camera| spec(camera, aspect)).collect())
 }
 
+/// The cameras of a GLB, glTF or TOML file for a recording with a view, and the size of their pictures, pixels: `size_px`,
+/// else that of the TOML file's view, if it states one.
+///
+/// # Errors
+/// If the file cannot be read, or a camera breaks a rule: shown at its line.
+pub fn cameras_for(
+    path: &Path,
+    recorded: &View,
+    size_px: Option<[u32; 2]>,
+    outside: Outside,
+) -> Result<(Vec<CameraSpec>, Option<[u32; 2]>), JobError> {
+    let aspect = |size_px: Option<[u32; 2]>| {
+        let [width, height] = size_px.unwrap_or([recorded.width, recorded.height]).map(f64::from);
+        width / height
+    };
+    if is_camera_file(path) {
+        return Ok((cameras_of(path, aspect(size_px), outside)?, size_px));
+    }
+    let CameraFile { mut cameras, view } = read_camera_file(path)?;
+    let size_px = size_px.or(view.map(|view| [view.width, view.height]));
+    resolve_cameras(&mut cameras, aspect(size_px), path, outside)?;
+    Ok((cameras, size_px))
+}
+
 /// Replaces the cameras of a scenario that name a file by what the file holds. Paths are relative to the scenario's file.
 ///
 /// # Errors
 /// If a file cannot be read, or does not have the camera: shown at the line of the scenario that names it.
 pub fn resolve(scenario: &mut Scenario, file: &Path, outside: Outside) -> Result<(), JobError> {
     let aspect = f64::from(scenario.view.width) / f64::from(scenario.view.height);
-    for (index, camera) in scenario.cameras.iter_mut().enumerate() {
+    resolve_cameras(&mut scenario.cameras, aspect, file, outside)
+}
+
+fn resolve_cameras(cameras: &mut [CameraSpec], aspect: f64, file: &Path, outside: Outside) -> Result<(), JobError> {
+    for (index, camera) in cameras.iter_mut().enumerate() {
         if let Some(gltf) = &camera.gltf {
             let path = file.parent().unwrap_or(Path::new("")).join(gltf);
             let mistake = |message: String, help: &str| JobError::from(camera_mistake(file, index, message, help));
@@ -60,7 +90,7 @@ fn chosen(
     if !path.exists() {
         return Err(mistake(
             format!("gltf: {} is no file", path.display()),
-            "give a path relative to the scenario file",
+            "give a path relative to the file that names it",
         ));
     }
     let found = cameras_of(path, aspect, outside).map_err(|error| {

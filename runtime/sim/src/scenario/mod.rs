@@ -36,8 +36,8 @@ pub use due_times::DueTimes;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{
-    MotionSource, agent_files, agents_of_lines, camera_mistake, character_files, check_styles, fault_of_lines,
-    names_motion, parse, read, read_plan,
+    CameraFile, MotionSource, agent_files, agents_of_lines, camera_mistake, character_files, check_styles,
+    fault_of_lines, names_motion, parse, read, read_camera_file, read_plan,
 };
 pub use places::barred_goals::BarredGoals;
 pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec, KeyLine};

@@ -9,13 +9,14 @@
 //! `agent_placement` (from them to agents), `group_keys` (agents that walk together), `sources` (agents that come
 //! later), `ground_tables` and `marking_tables`
 //! (walls, what is painted on the ground), `measure_tables` and `zone_tables` (lines and areas),
-//! `variation_value` (how much bodies differ).
+//! `variation_value` (how much bodies differ), and `cameras` (files that hold cameras alone).
 
 mod agent_area;
 mod agent_groups;
 mod agent_lines;
 mod agent_placement;
 pub(crate) mod behaviour;
+mod cameras;
 mod ground_tables;
 mod group_keys;
 mod marking_tables;
@@ -29,5 +30,6 @@ mod wkt_polygons;
 mod zone_tables;
 
 pub use agent_placement::{agents_of_lines, fault_of_lines};
-pub use reading::{agent_files, camera_mistake, character_files, check_styles, names_motion, parse, read, read_plan};
+pub use cameras::{CameraFile, camera_mistake, read_camera_file};
+pub use reading::{agent_files, character_files, check_styles, names_motion, parse, read, read_plan};
 pub use scenario_file::MotionSource;

@@ -155,20 +155,7 @@ pub fn character_files(path: &Path) -> Result<Vec<CharacterFile>, ScenarioError>
     character_tables::files(&source, &file.characters)
 }
 
-/// A mistake of a camera, by its index, that is found outside the scenario file: shown at the line of the key that the
-/// message begins with. Where the file cannot be read any more, that is the mistake.
-pub fn camera_mistake(path: &Path, camera: usize, message: String, help: &str) -> ScenarioError {
-    let pointed = || {
-        let source = read_text(path)?;
-        let file = ScenarioFile::parse(&source)?;
-        let table = file.cameras().nth(camera).map_or(0..0, Spanned::span);
-        let span = key_span(&source.text, &table, &message).unwrap_or(table);
-        Ok(source.invalid(span, message, help).into())
-    };
-    pointed().unwrap_or_else(|error| error)
-}
-
-fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
+pub(super) fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
     SourceText::read(path).map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })
 }
 
@@ -233,10 +220,12 @@ impl ScenarioTexts<'_> {
     }
 }
 
-/// The bytes of the key that a message begins with, in the table that begins at some bytes; none where the table has no
-/// such key.
-fn key_span(text: &str, table: &Range<usize>, message: &str) -> Option<Range<usize>> {
+/// The bytes of the key that a message begins with (`focal_mm is 0`, `y of eye_m is NaN`, `` `up` is … ``), in the table
+/// that begins at some bytes; none where the table has no such key.
+pub(super) fn key_span(text: &str, table: &Range<usize>, message: &str) -> Option<Range<usize>> {
     let is_of_key = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+    let of_axis = message.split_once(" of ").filter(|(axis, _)| axis.len() == 1);
+    let message = of_axis.map_or(message, |(_, rest)| rest).trim_start_matches('`');
     let key = message.split(|letter| !is_of_key(letter)).next().filter(|key| !key.is_empty())?;
     let mut begin = table.start;
     for line in text.get(begin..)?.split_inclusive('\n') {
@@ -277,6 +266,8 @@ mod tests {
         let second = text.rfind("[[").unwrap_or_default();
         assert_eq!(found(0, "speed_factor is -1, not between"), Some("speed_factor = -1"));
         assert_eq!(found(second, "speed_factor is 0, not between"), Some("speed_factor=0"));
+        assert_eq!(found(second, "y of speed_factor is 0"), Some("speed_factor=0"));
+        assert_eq!(found(second, "`one_way_deg` belongs to a lane"), Some("one_way_deg = 5"));
         assert_eq!(found(0, "one_way_deg is 5"), None);
         assert_eq!(found(0, "speed is 5"), None);
         assert_eq!(found(0, "the zone has no area"), None);

@@ -62,7 +62,7 @@ use crate::scenario::view::View;
 /// How to mend a scenario without agents.
 const NO_AGENTS: &str = "add `[[agents]]`, or `[[sources]]` for agents that come later";
 /// Keys by one of which a scenario file is recognised.
-const KEYS: [&str; 7] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner", "sources"];
+pub(super) const KEYS: [&str; 7] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner", "sources"];
 /// How to mend a scenario without motion.
 const NO_MOTION: &str = "add `clips = \"FOLDER\"` or `database = \"FILE.fbdb\"`, relative to this file, or give a database with `fbcrowd simulate --db`";
 

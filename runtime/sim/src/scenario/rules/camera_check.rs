@@ -70,7 +70,8 @@ pub(crate) fn check_followed(scenario: &Scenario) -> Result<(), ScenarioFault> {
     match scenario.cameras.iter().position(is_missing) {
         Some(index) if agents > 0 && scenario.sources.is_empty() => {
             let agent = followed(&scenario.cameras[index]).unwrap_or_default();
-            let message = format!("there is no agent {agent}: the agents are 0 to {}", agents - 1);
+            let key = if scenario.cameras[index].eyes_of.is_some() { "eyes_of" } else { "follow" };
+            let message = format!("{key}: there is no agent {agent}: the agents are 0 to {}", agents - 1);
             ScenarioPart::Camera(index).fault(message, "name one of them")
         }
         _ => Ok(()),
@@ -100,14 +101,22 @@ fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), Scena
     }
     check_keys(part, keys)?;
     if let Some(CameraOrbit { centre_m, radius_m, height_m, period_s, start_deg }) = *orbit {
-        check_point(part, "centre_m", centre_m)?;
-        within(part, "radius_m", radius_m, &DISTANCE_M, "give the distance from the centre in metres")?;
-        within(part, "height_m", height_m, &(0.0..=COORDINATE_MAX_M), "give the height in metres")?;
-        within(part, "period_s", period_s.abs(), &(0.1..=*DURATION_S.end()), "give the time of one turn in seconds")?;
-        within(part, "start_deg", start_deg, &(-3_600.0..=3_600.0), "give an angle in degrees")?;
+        check_point(part, "orbit.centre_m", centre_m)?;
+        within(part, "orbit: radius_m", radius_m, &DISTANCE_M, "give the distance from the centre in metres")?;
+        within(part, "orbit: height_m", height_m, &(0.0..=COORDINATE_MAX_M), "give the height in metres")?;
+        within(
+            part,
+            "orbit: period_s",
+            period_s.abs(),
+            &(0.1..=*DURATION_S.end()),
+            "give the time of one turn in seconds",
+        )?;
+        within(part, "orbit: start_deg", start_deg, &(-3_600.0..=3_600.0), "give an angle in degrees")?;
     }
     if let Some(CameraFollow { behind_m, left_m, height_m, .. }) = *follow {
-        for (name, offset_m) in [("behind_m", behind_m), ("left_m", left_m), ("height_m", height_m)] {
+        for (name, offset_m) in
+            [("follow: behind_m", behind_m), ("follow: left_m", left_m), ("follow: height_m", height_m)]
+        {
             within(part, name, offset_m, &OFFSET_M, "give a distance in metres")?;
         }
     }
@@ -116,14 +125,18 @@ fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), Scena
 
 fn check_keys(part: &ScenarioPart, keys: &[CameraKey]) -> Result<(), ScenarioFault> {
     within(part, "the number of keys", keys.len(), &(0..=KEYS_MAX), "give fewer keys")?;
-    for key in keys {
-        within(part, "time_s", key.time_s, &(-DURATION_S.end()..=*DURATION_S.end()), "give the time in seconds")?;
-        check_view_line(part, key.eye_m, key.look_at_m)?;
-        check_up(part, key.eye_m, key.look_at_m, key.up)?;
+    for (index, key) in keys.iter().enumerate() {
+        within(part, "time_s", key.time_s, &(-DURATION_S.end()..=*DURATION_S.end()), "give the time in seconds")
+            .and_then(|()| check_view_line(part, key.eye_m, key.look_at_m))
+            .and_then(|()| check_up(part, key.eye_m, key.look_at_m, key.up))
+            .map_err(|fault| ScenarioFault {
+                message: format!("keys, entry {}: {}", index + 1, fault.message),
+                ..fault
+            })?;
     }
     match keys.windows(2).find(|pair| pair[1].time_s <= pair[0].time_s) {
         Some(pair) => {
-            let message = format!("the key at {} s follows the key at {} s", pair[1].time_s, pair[0].time_s);
+            let message = format!("keys: the key at {} s follows the key at {} s", pair[1].time_s, pair[0].time_s);
             part.fault(message, "write keys in rising order of `time_s`")
         }
         None => Ok(()),
@@ -134,7 +147,7 @@ fn check_view_line(part: &ScenarioPart, eye_m: Vec3, look_at_m: Vec3) -> Result<
     check_point(part, "eye_m", eye_m)?;
     check_point(part, "look_at_m", look_at_m)?;
     if eye_m.distance(look_at_m) < 0.01 {
-        return part.fault("the camera looks at its own position".into(), TARGET_HELP);
+        return part.fault("look_at_m: the camera looks at its own position".into(), TARGET_HELP);
     }
     Ok(())
 }
@@ -222,14 +235,34 @@ mod tests {
         let cases = [
             (format!("[camera]\n{still}"), 3, "no focal length"),
             (format!("[camera]\n{still}\nfocal_mm = nan"), 6, "focal_mm is NaN"),
-            ("[camera]\neye_m = [0, nan, 1]\nlook_at_m = [0, 0, 1]\nfocal_mm = 35".to_owned(), 3, "y of eye_m is NaN"),
+            ("[camera]\neye_m = [0, nan, 1]\nlook_at_m = [0, 0, 1]\nfocal_mm = 35".to_owned(), 4, "y of eye_m is NaN"),
             (format!("[camera]\n{still}\nfocal_mm = 35\nfov_deg = 40"), 3, "several lenses"),
             ("[camera]\nfov_deg = 40".to_owned(), 3, "no position"),
             (format!("[camera]\n{still}\neyes_of = 0\nfov_deg = 40"), 3, "several positions"),
             (format!("[camera]\n{still}\nfov_deg = 40\nzoom = 2"), 7, "zoom"),
-            ("[camera]\neyes_of = 1\nfov_deg = 40".to_owned(), 3, "no agent 1: the agents are 0 to 0"),
-            ("[camera]\nfollow = { agent = 7 }\nfov_deg = 40".to_owned(), 3, "no agent 7"),
-            ("[camera]\neye_m = [0, 0, 1]\nlook_at_m = [0, 0, 1]\nfov_deg = 40".to_owned(), 3, "its own position"),
+            ("[camera]\neyes_of = 1\nfov_deg = 40".to_owned(), 4, "no agent 1: the agents are 0 to 0"),
+            ("[camera]\nfov_deg = 40\nfollow = { agent = 7 }".to_owned(), 5, "no agent 7"),
+            ("[camera]\neye_m = [0, 0, 1]\nlook_at_m = [0, 0, 1]\nfov_deg = 40".to_owned(), 5, "its own position"),
+            (format!("[camera]\n{still}\nfov_deg = 40\nup = [0, 0, 0]"), 7, "`up` is no direction"),
+            (
+                "[camera]\nfov_deg = 40\norbit = { centre_m = [0, 0, inf], radius_m = 3, height_m = 2, period_s = 9 }"
+                    .to_owned(),
+                5,
+                "z of orbit.centre_m is inf",
+            ),
+            (
+                "[camera]\nfov_deg = 40\norbit = { centre_m = [0, 0, 1], radius_m = 0, height_m = 2, period_s = 9 }"
+                    .to_owned(),
+                5,
+                "orbit: radius_m is 0",
+            ),
+            (
+                "[camera]\nfov_deg = 40\nkeys = [\n{ time_s = 0, eye_m = [0, 1, 1], look_at_m = [0, 0, 1] },\n\
+                 { time_s = 0, eye_m = [0, 1, nan], look_at_m = [0, 0, 1] }]"
+                    .to_owned(),
+                5,
+                "keys, entry 2: z of eye_m is NaN",
+            ),
             (
                 format!(
                     "[[cameras]]\nname = 'a'\n{still}\nfov_deg = 40\n[[cameras]]\nname = 'a'\n{still}\nfov_deg = 40"

@@ -7,7 +7,7 @@
 //! agents), `marking_check` (markings, labels), `camera_check` and `variation_check`.
 
 pub(crate) mod behaviour_check;
-mod camera_check;
+pub(crate) mod camera_check;
 pub(crate) mod check;
 pub(crate) mod ground_check;
 pub(crate) mod marking_check;

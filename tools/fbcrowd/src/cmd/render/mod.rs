@@ -15,7 +15,6 @@ use fbcrowd_render::passes::{ColourSpace, ExrCompression, PassSet};
 use fbcrowd_render::top_view::{FrameRange, SequenceOptions};
 use fbcrowd_render::visibility::SamplePattern;
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::scenario;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::render::shot_args::ShotArgs;
@@ -94,7 +93,8 @@ struct CameraArgs {
     /// The camera; by default the scenario's first, else `default`, which frames the crowd at eye height.
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
-    /// Take cameras and picture size from a scenario file, or cameras from a GLB or glTF file, instead of from the recording.
+    /// Take cameras from a TOML file with [camera] or [[cameras]], such as a scenario, or from a GLB or glTF file; and the
+    /// picture size from [view] of a TOML file.
     #[arg(long, value_name = "FILE")]
     cameras: Option<PathBuf>,
     /// Width and height of the pictures, pixels; default: the scenario's `[view]`.
@@ -186,16 +186,9 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     let mut inputs = vec![args.recording.clone()];
     let (mut size_px, mut other_cameras) = (*size, None);
     if let Some(path) = cameras {
-        if camera_file::is_camera_file(path) {
-            let view = &recording.header().scenario.view;
-            let [width, height] = size_px.unwrap_or([view.width, view.height]).map(f64::from);
-            other_cameras = Some(camera_file::cameras_of(path, width / height, args.outside.into())?);
-        } else {
-            let (mut scenario, _) = scenario::read(path)?;
-            camera_file::resolve(&mut scenario, path, args.outside.into())?;
-            size_px = size_px.or(Some([scenario.view.width, scenario.view.height]));
-            other_cameras = Some(scenario.cameras);
-        }
+        let view = &recording.header().scenario.view;
+        let (found, found_px) = camera_file::cameras_for(path, view, size_px, args.outside.into())?;
+        (other_cameras, size_px) = (Some(found), found_px);
         inputs.push(path.clone());
     }
     let options = CameraOptions {
