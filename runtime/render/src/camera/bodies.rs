@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::camera::colour_by::dressed;
 use crate::camera::worn::{Wardrobe, Wearer};
 use crate::figure::{Figures, Wanted};
+use crate::passes::motion::PartPlaces;
 use crate::raster::palette::{Rgb, decode_srgb};
 use crate::visibility::lens::NEAR_M;
 use crate::visibility::{Lens, SceneParts};
@@ -20,6 +21,8 @@ const SHADOW_REACH_M: f32 = 2.5;
 const HEIGHT_M: f32 = 1.75;
 /// Number of agents that are posed at once.
 const AGENTS_AT_ONCE: usize = 32;
+/// Number of such chunks of each thread that exist at once.
+const CHUNKS_OF_THREAD: usize = 4;
 
 /// What draws bodies.
 pub(crate) struct Dresser<'a> {
@@ -29,47 +32,82 @@ pub(crate) struct Dresser<'a> {
     pub(crate) population: &'a Population,
 }
 
+/// Agents before a lens.
+struct Seen<'a> {
+    /// They decide which bodies are there and how fine they are.
+    agents: &'a [AgentFrame],
+    /// The same agents at the same time or another one: they decide where the parts are.
+    posed: &'a [AgentFrame],
+    lens: &'a Lens,
+    /// Id of an agent that is left out.
+    hidden: Option<u32>,
+}
+
 impl Dresser<'_> {
-    /// The bodies that a lens sees, or that throw shadows into its picture, in the characters that they wear. `agents`
-    /// decide which bodies are there and how fine they are, `posed` where their parts are: the same agents at the same
-    /// time, or at another one. `shown` are colours that replace the agents' own. `hidden` is the id of an agent that is
-    /// left out.
+    /// The bodies that a lens sees, or that throw shadows into its picture, in the characters that they wear. `shown` are
+    /// colours that replace the agents' own. `hidden` is the id of an agent that is left out.
     pub(crate) fn body_parts(
         &self,
         agents: &[AgentFrame],
-        posed: &[AgentFrame],
         shown: &[Option<Rgb>],
         lens: &Lens,
         hidden: Option<u32>,
     ) -> SceneParts {
-        let chunks: Vec<SceneParts> = agents
-            .par_chunks(AGENTS_AT_ONCE)
-            .zip(posed.par_chunks(AGENTS_AT_ONCE))
-            .zip(shown.par_chunks(AGENTS_AT_ONCE))
-            .map(|((agents, posed), shown)| {
-                let mut parts = SceneParts::default();
-                for ((agent, posed), shown) in agents.iter().zip(posed).zip(shown) {
-                    if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
-                        let stature = self.stature(agent);
-                        let first = parts.meshes.triangles.len();
-                        self.append_sized(&mut parts, posed, stature, stature * height_px(lens, agent), *shown);
-                        if is_near_eye(lens, agent, stature) {
-                            parts.meshes.open(first);
-                        }
-                    }
-                }
-                parts
-            })
-            .collect();
         let mut scene = SceneParts::default();
-        scene.meshes.reserve(chunks.iter().map(|parts| &parts.meshes));
-        for parts in chunks {
+        let append = |parts: SceneParts| {
             scene.cones.extend(parts.cones);
             scene.occluders.extend(parts.occluders);
             scene.meshes.extend(&parts.meshes);
-        }
+        };
+        let seen = Seen { agents, posed: agents, lens, hidden };
+        self.each_chunk(&seen, |at| shown[at], |parts| parts, append);
         scene.textures = self.wardrobe.map(Wardrobe::textures).unwrap_or_default();
         scene
+    }
+
+    /// Where the parts of [`Self::body_parts`] are at another time: `posed` holds the same agents then.
+    pub(crate) fn body_places(
+        &self,
+        agents: &[AgentFrame],
+        posed: &[AgentFrame],
+        lens: &Lens,
+        hidden: Option<u32>,
+    ) -> PartPlaces {
+        let mut places = PartPlaces::default();
+        let seen = Seen { agents, posed, lens, hidden };
+        self.each_chunk(&seen, |_| None, PartPlaces::of, |of_chunk| places.extend(&of_chunk));
+        places
+    }
+
+    /// Makes the parts of bodies, some agents at once, and calls `append` in the order of the agents with what `keep` leaves
+    /// of them. Few chunks exist at a time: the parts of a large crowd take hundreds of megabytes.
+    fn each_chunk<T: Send>(
+        &self,
+        seen: &Seen,
+        shown: impl Fn(usize) -> Option<Rgb> + Sync,
+        keep: impl Fn(SceneParts) -> T + Sync,
+        mut append: impl FnMut(T),
+    ) {
+        let parts_of = |first: usize| {
+            let mut parts = SceneParts::default();
+            for at in first..(first + AGENTS_AT_ONCE).min(seen.agents.len()) {
+                let agent = &seen.agents[at];
+                if Some(agent.id.0) != seen.hidden && is_near_picture(seen.lens, agent) {
+                    let (stature, first) = (self.stature(agent), parts.meshes.triangles.len());
+                    let height_px = stature * height_px(seen.lens, agent);
+                    self.append_sized(&mut parts, &seen.posed[at], stature, height_px, shown(at));
+                    if is_near_eye(seen.lens, agent, stature) {
+                        parts.meshes.open(first);
+                    }
+                }
+            }
+            keep(parts)
+        };
+        let firsts: Vec<usize> = (0..seen.agents.len()).step_by(AGENTS_AT_ONCE).collect();
+        for firsts in firsts.chunks(CHUNKS_OF_THREAD * rayon::current_num_threads()) {
+            let chunks: Vec<T> = firsts.par_iter().map(|first| parts_of(*first)).collect();
+            chunks.into_iter().for_each(&mut append);
+        }
     }
 
     /// Size of an agent relative to the crowd's body.

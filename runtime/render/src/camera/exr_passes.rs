@@ -132,7 +132,7 @@ impl<'a> PassedFrame<'a> {
     }
 }
 
-/// The parts of a moment's agents, a number of frames later.
+/// Where the parts of a moment are, a number of frames later.
 fn other_frame(take: &Take<'_>, moment: &Moment, frames: f64) -> Result<OtherFrame, RenderError> {
     let Moment { shot, agents } = moment;
     let time_s = shot.time_s + frames / take.times.rate.hz();
@@ -140,7 +140,7 @@ fn other_frame(take: &Take<'_>, moment: &Moment, frames: f64) -> Result<OtherFra
     let posed = posed_then(agents, &take.agents_at(time_s)?);
     // A camera at an agent that is not present then stays.
     let lens = take.lens_at(time_s).unwrap_or(shot.lens);
-    Ok(OtherFrame { scene: take.view.posed_scene(shot, agents, &posed), lens })
+    Ok(OtherFrame { places: take.view.places(shot, agents, &posed), lens })
 }
 
 /// The agents of a frame as they are at another time; as they are now where they are not present then.

@@ -17,6 +17,7 @@ use crate::camera::colour_by::{ColourBy, shown};
 use crate::camera::options::Quality;
 use crate::camera::worn::Wardrobe;
 use crate::figure::Figures;
+use crate::passes::motion::PartPlaces;
 use crate::shading::ground_plan::GroundPlan;
 use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
@@ -109,18 +110,29 @@ impl<'a> CameraView<'a> {
 
     /// The cones and triangles of a frame.
     pub fn scene(&self, shot: &Shot, agents: &[AgentFrame]) -> SceneParts {
-        self.posed_scene(shot, agents, agents)
+        let shown = shown(self.colour_by, agents, self.population);
+        let mut scene = self.dresser().body_parts(agents, &shown, &shot.lens, shot.eyes_of);
+        scene.meshes.extend(&self.blocks);
+        self.append_doors(&mut scene.meshes, shot);
+        scene
     }
 
-    /// The same parts, where they are at another time: `posed` holds the agents of `agents` then.
-    pub(crate) fn posed_scene(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> SceneParts {
-        let shown = shown(self.colour_by, agents, self.population);
-        let dresser = Dresser { figures: &self.figures, wardrobe: self.wardrobe.as_ref(), population: self.population };
-        let mut scene = dresser.body_parts(agents, posed, &shown, &shot.lens, shot.eyes_of);
-        scene.meshes.extend(&self.blocks);
+    /// Where the parts of [`Self::scene`] are at another time: `posed` holds the agents of `agents` then.
+    pub(crate) fn places(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> PartPlaces {
+        let mut places = self.dresser().body_places(agents, posed, &shot.lens, shot.eyes_of);
+        let mut standing = SceneParts { meshes: self.blocks.clone(), ..SceneParts::default() };
+        self.append_doors(&mut standing.meshes, shot);
+        places.extend(&PartPlaces::of(standing));
+        places
+    }
+
+    fn dresser(&self) -> Dresser<'_> {
+        Dresser { figures: &self.figures, wardrobe: self.wardrobe.as_ref(), population: self.population }
+    }
+
+    fn append_doors(&self, meshes: &mut Meshes, shot: &Shot) {
         let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
-        append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);
-        scene
+        append_doors(meshes, &self.header.scenario, self.population, frame);
     }
 
     /// Picture of all agents at a time.

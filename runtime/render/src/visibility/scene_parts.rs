@@ -189,19 +189,6 @@ impl Meshes {
         self.paints.get((number as usize).wrapping_sub(1))
     }
 
-    /// Makes room for other meshes.
-    pub(crate) fn reserve<'a>(&mut self, others: impl Iterator<Item = &'a Self>) {
-        let sum = |[vertices, triangles]: [usize; 2], other: &Self| {
-            [vertices + other.positions_m.len(), triangles + other.triangles.len()]
-        };
-        let [vertices, triangles] = others.fold([0; 2], sum);
-        for list in [&mut self.positions_m, &mut self.normals, &mut self.colours] {
-            list.reserve(vertices);
-        }
-        self.triangles.reserve(triangles);
-        self.owners.reserve(triangles);
-    }
-
     /// Appends all triangles of other meshes.
     pub(crate) fn extend(&mut self, other: &Self) {
         let first = self.positions_m.len() as u32;

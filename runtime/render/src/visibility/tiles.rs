@@ -20,6 +20,8 @@ use crate::visibility::triangle::{Projection, ScreenTriangle, screen_position, w
 pub(crate) const TILE_PX: u32 = 32;
 /// Number of triangles that are projected at once.
 const TRIANGLES_AT_ONCE: usize = 4096;
+/// Number of such chunks of each thread that exist at once.
+const CHUNKS_OF_THREAD: usize = 8;
 
 /// A cone, and the pixels that it can touch.
 struct VisibleCone {
@@ -158,8 +160,14 @@ fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) ->
         }
         visible
     };
-    let chunks: Vec<_> = meshes.triangles.par_chunks(TRIANGLES_AT_ONCE).enumerate().map(project).collect();
-    chunks.concat()
+    let chunks: Vec<(usize, &[[u32; 3]])> = meshes.triangles.chunks(TRIANGLES_AT_ONCE).enumerate().collect();
+    let mut visible = Vec::new();
+    // Few chunks exist at a time: the triangles of a large crowd take hundreds of megabytes.
+    for chunks in chunks.chunks(CHUNKS_OF_THREAD * rayon::current_num_threads()) {
+        let of_chunks: Vec<Vec<ScreenTriangle>> = chunks.par_iter().map(|chunk| project(*chunk)).collect();
+        of_chunks.iter().for_each(|of_chunk| visible.extend_from_slice(of_chunk));
+    }
+    visible
 }
 
 impl TileLists {
