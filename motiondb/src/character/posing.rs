@@ -4,7 +4,8 @@
 //! 2. The middle of the hips lies where the canonical body's does; other positions follow along *anatomical* parents,
 //!    not the file's: thighs may hang from a root beside the hips, feet from a control bone.
 //! 3. A leg's inverse kinematics puts the ball of the foot on the sole where the canonical body's is. A foot without
-//!    toes turns about its tip instead while the heel rises, by a smaller angle, so that the ankle rises as high.
+//!    toes turns about its tip instead while the heel rises, by a smaller angle, so that the ankle rises as high. A foot
+//!    whose ball is above its heel turns about the heel.
 //! 4. Each foot is raised or lowered so that its lowest point is as high as that of the canonical foot.
 //!    A shift along and across the planted foot, whose axes rest meanwhile, keeps the ankle of a flat foot under the
 //!    knee although the foot's length is the character's own, and the feet as far apart as its hips.
@@ -21,6 +22,9 @@ use crate::character::model::CharacterFoot;
 
 /// Height of a foot's lowest point above the ground at which the hips do not sink for it any more, m.
 const LIFTED_M: f32 = 0.05;
+/// Height of a foot's ball above its heel from which it stands on the heel alone, m: the length of a character's foot is
+/// its own, so it can hold only one of both points where the body's is.
+const ON_HEEL_M: f32 = 0.02;
 /// Greatest distance by which the hips sink, divided by their height.
 const SINK_MAX: f32 = 0.1;
 
@@ -128,7 +132,7 @@ impl CharacterFit<'_> {
         let rotation = posed.rotations[foot.index()];
         let toe_rotation = joints.orientations[toe.index()] * self.turns[foot.index()];
         let soles_m = joints.sole_points_m(skeleton, side);
-        let mut target_m = if self.character.has_toe(side) {
+        let on_ball_m = if self.character.has_toe(side) {
             soles_m[1] - turned(rotation, ankle_m, ball_m)
         } else {
             soles_m[1] + turned(toe_rotation, ball_m, toe_tip_m) - turned(rotation, ankle_m, toe_tip_m)
@@ -138,11 +142,14 @@ impl CharacterFit<'_> {
             None => turned(rotation, ankle_m, toe_tip_m),
         };
         let own_m = [turned(rotation, ankle_m, heel_m), turned(rotation, ankle_m, ball_m), tip_m];
+        let [heel_shift_m, ball_shift_m] = self.stance_shifts_m(skeleton, joints.orientations[toe.index()], side);
+        let on_heel_m = soles_m[0] - own_m[0] + heel_shift_m;
+        let on_heel = ((soles_m[1].z - soles_m[0].z) / ON_HEEL_M).clamp(0.0, 1.0);
+        let mut target_m = (on_ball_m + ball_shift_m).lerp(on_heel_m, on_heel);
         let lowest_m =
             |points_m: [Vec3; 3]| points_m.into_iter().map(|point_m| point_m.z).fold(f32::INFINITY, f32::min);
         let height_m = lowest_m(soles_m);
         target_m.z += height_m - (target_m.z + lowest_m(own_m));
-        target_m += self.stance_shift_m(skeleton, joints.orientations[toe.index()], side);
         FootTarget {
             ankle_m: target_m,
             reach_m: EXTENSION_MAX * self.leg_lengths_m(side).into_iter().sum::<f32>(),
@@ -150,15 +157,21 @@ impl CharacterFit<'_> {
         }
     }
 
-    /// Displacement of a foot from the canonical one along and across its planted direction, m: so that the ankles of
-    /// flat feet agree along it, and the feet stand as far apart as the hips.
-    fn stance_shift_m(&self, skeleton: &Skeleton, toe: Quat, side: usize) -> Vec3 {
-        let CharacterFoot { ball_m, .. } = self.character.feet[side];
-        let own_m = (ball_m - self.bind_m(Joint::FEET[side])).with_z(0.0).length();
-        let to_ball_m = skeleton.feet[side].ball_m.with_z(0.0);
+    /// Displacements of a foot's heel and ball from the canonical ones along and across its planted direction, m: so that
+    /// the ankles of flat feet agree along it, and the feet stand as far apart as the hips.
+    fn stance_shifts_m(&self, skeleton: &Skeleton, toe: Quat, side: usize) -> [Vec3; 2] {
+        let CharacterFoot { heel_m, ball_m, .. } = self.character.feet[side];
+        let flat = |point_m: Vec3| (point_m - self.bind_m(Joint::FEET[side])).with_z(0.0);
+        let [own_heel_m, own_ball_m] = [heel_m, ball_m].map(flat);
+        let canonical = &skeleton.feet[side];
+        let to_ball_m = canonical.ball_m.with_z(0.0);
+        // Along the foot; heels lie behind the ankle.
+        let own_behind_m = own_heel_m.dot(own_ball_m.normalize_or_zero());
+        let behind_m = canonical.heel_m.dot(to_ball_m.normalize_or_zero());
         let ahead = (toe * to_ball_m).with_z(0.0).normalize_or_zero();
         let left = (toe * Vec3::Y).with_z(0.0).normalize_or_zero();
-        (self.scale * own_m - to_ball_m.length()) * ahead + self.wider_m[side] * left
+        let farther_m = [self.scale * own_behind_m - behind_m, self.scale * own_ball_m.length() - to_ball_m.length()];
+        farther_m.map(|farther_m| farther_m * ahead + self.wider_m[side] * left)
     }
 
     /// Step 5.
