@@ -37,18 +37,6 @@ pub fn hue_turn(seed: u64, id: u32) -> f32 {
     (2.0 * fraction(seed ^ HUE, u64::from(id)) - 1.0) as f32
 }
 
-/// A linear colour with its hue turned by a share of the full circle; its grey stays. The result is in [0, 1].
-///
-/// The colour turns about the grey axis (1, 1, 1), Rodrigues' formula.
-pub fn with_turned_hue(colour: [f32; 3], turn: f32) -> [f32; 3] {
-    const ROOT_THIRD: f32 = 0.577_350_26;
-    let (sin, cos) = libm::sincosf(turn * std::f32::consts::TAU);
-    let [red, green, blue] = colour;
-    let grey = (1.0 - cos) * (red + green + blue) / 3.0;
-    let turned = |own: f32, before: f32, after: f32| cos * own + sin * ROOT_THIRD * (before - after) + grey;
-    [turned(red, blue, green), turned(green, red, blue), turned(blue, green, red)].map(|part| part.clamp(0.0, 1.0))
-}
-
 /// A number in [0, 1) by SplitMix64 (Steele, Lea and Flood 2014) of seed and number.
 fn fraction(seed: u64, number: u64) -> f64 {
     const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -78,16 +66,5 @@ mod tests {
     #[test]
     fn a_weight_of_zero_is_never_chosen() {
         assert!((0..2000).all(|id| chosen(3, id, [0.0, 1.0, 0.0]) == Some(1)));
-    }
-
-    #[test]
-    fn a_whole_turn_leaves_the_colour() {
-        let colour = [0.6, 0.2, 0.1];
-        for (turned, part) in with_turned_hue(colour, 1.0).into_iter().zip(colour) {
-            assert!((turned - part).abs() < 1e-6);
-        }
-        // A third of a turn: red becomes green.
-        let green = with_turned_hue([0.9, 0.0, 0.0], 1.0 / 3.0);
-        assert!(green[1] > 0.89 && green[0] < 0.01);
     }
 }

@@ -38,7 +38,7 @@ mod texture;
 
 pub use character_file::{MAGIC, VERSION, from_bytes, load, to_bytes, write};
 pub use check::{JOINTS_MAX, TRIANGLES_MAX, VERTICES_MAX, first_fault};
-pub use choice::{chosen, hue_turn, with_turned_hue};
+pub use choice::{chosen, hue_turn};
 pub use dye::Dye;
 pub use fit::{CharacterFit, SCALE_TOLERANCE};
 pub use model::{Character, CharacterFoot, CharacterJoint, CharacterMesh, Material, WEIGHT_COUNT};

@@ -34,17 +34,22 @@ impl CharacterMesh {
     pub fn dyed(&self, dye: &Dye, colours: &mut Vec<Vec3>) {
         colours.clear();
         colours.extend(self.colours.iter().map(|colour| Vec3::from(*colour)));
-        for (material, triangles) in self.runs() {
+        // Number of the last run, from 1, that coloured each vertex: triangles share vertices.
+        let mut coloured_by = vec![0_u32; colours.len()];
+        for (run, (material, triangles)) in (1..).zip(self.runs()) {
             let is_textured = material.texture.is_some();
             if !is_textured && *dye == Dye::default() {
                 continue;
             }
             for &vertex in self.triangles[triangles].as_flattened() {
                 let vertex = vertex as usize;
-                colours[vertex] = match is_textured {
-                    true => self.tints[vertex].into(),
-                    false => dye.applied(self.colours[vertex].into(), material.keeps_hue),
-                };
+                if coloured_by[vertex] != run {
+                    coloured_by[vertex] = run;
+                    colours[vertex] = match is_textured {
+                        true => self.tints[vertex].into(),
+                        false => dye.applied(self.colours[vertex].into(), material.keeps_hue),
+                    };
+                }
             }
         }
     }

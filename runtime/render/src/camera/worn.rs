@@ -68,7 +68,7 @@ impl<'a> Wardrobe<'a> {
             fit,
             level: self.levels[character as usize].of_pixel(pixel_m),
             first_texture: self.textures.firsts[character as usize],
-            dye: Dye { hue_turn: self.header.scenario.hue_turn_of(agent.id.0, character), shown },
+            dye: Dye::new(self.header.scenario.hue_turn_of(agent.id.0, character), shown),
             owner: Owner { agent: agent.id.0, material: CHARACTER },
         };
         worn.append(parts, &transforms);
