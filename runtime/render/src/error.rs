@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use glam::Vec3;
 use thiserror::Error;
 
 /// Reason why a picture cannot be drawn.
@@ -110,15 +111,17 @@ pub enum RenderError {
         /// Name of the camera.
         camera: String,
     },
-    /// The eye of a camera is inside a body.
+    /// The eye of a camera is inside a body or a wall, or under the ground.
     #[error(
-        "camera {camera:?}: its eye is inside agent {agent} in frame {frame}; move the camera, or leave the frame out by --frames"
+        "camera {camera:?}: its eye at {eye_m:.2} m is {place} in frame {frame}; move the camera, or leave the frame out by --frames"
     )]
     EyeInside {
         /// Name of the camera.
         camera: String,
-        /// Id of the agent.
-        agent: u32,
+        /// The eye, m.
+        eye_m: Vec3,
+        /// What holds it, such as `inside agent 5`.
+        place: String,
         /// Number of the frame.
         frame: u32,
     },

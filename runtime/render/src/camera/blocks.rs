@@ -2,6 +2,7 @@
 
 use earcut::Earcut;
 use fbcrowd_sim::Population;
+use fbcrowd_sim::maths::polygon;
 use fbcrowd_sim::scenario::Scenario;
 use glam::{Vec2, Vec3};
 
@@ -22,14 +23,31 @@ const WALL: Owner = Owner::SCENE;
 /// The solids of a scene that never change.
 pub(crate) fn still_blocks(scenario: &Scenario) -> Meshes {
     let mut meshes = Meshes::default();
-    for (index, corners_m) in scenario.obstacles_m.iter().enumerate() {
-        let height_m = scenario.obstacle_heights_m.get(index).copied().flatten().unwrap_or(OBSTACLE_M);
+    for (corners_m, height_m) in obstacles(scenario) {
         append_block(&mut meshes, corners_m, height_m, OBSTACLE);
     }
     for corners_m in &scenario.enclosures_m {
         append_walls(&mut meshes, corners_m, FENCE_M, OBSTACLE_RIM);
     }
     meshes
+}
+
+/// What is solid at a point, in words: the ground or an obstacle; none in the open.
+pub(crate) fn solid_at(scenario: &Scenario, point_m: Vec3) -> Option<&'static str> {
+    if point_m.z < 0.0 {
+        return Some("under the ground");
+    }
+    let holds = |(corners_m, height_m): (&[Vec2], f32)| {
+        point_m.z < height_m && polygon::contains(corners_m, point_m.truncate())
+    };
+    obstacles(scenario).any(holds).then_some("inside an obstacle")
+}
+
+/// Corners and height of each obstacle, m.
+fn obstacles(scenario: &Scenario) -> impl Iterator<Item = (&[Vec2], f32)> {
+    let heights_m = scenario.obstacle_heights_m.iter().copied().chain(std::iter::repeat(None));
+    let obstacles = scenario.obstacles_m.iter().zip(heights_m);
+    obstacles.map(|(corners_m, height_m)| (&corners_m[..], height_m.unwrap_or(OBSTACLE_M)))
 }
 
 /// Appends the doors that are closed in a frame of the recording.
@@ -64,6 +82,17 @@ fn append_walls(meshes: &mut Meshes, corners_m: &[Vec2], height_m: f32, colour: 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_point_is_solid_inside_an_obstacle_and_under_the_ground() {
+        let mut scenario = Scenario::of(Vec::new());
+        scenario.obstacles_m.push([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(Vec2::from).to_vec());
+        scenario.obstacle_heights_m = vec![Some(1.0)];
+        let at = |x: f32, y: f32, z: f32| solid_at(&scenario, Vec3::new(x, y, z));
+        assert_eq!(at(0.5, 0.5, 0.9), Some("inside an obstacle"));
+        assert_eq!([at(0.5, 0.5, 1.1), at(1.5, 1.5, 0.9)], [None; 2]);
+        assert_eq!(at(5.0, 5.0, -0.1), Some("under the ground"));
+    }
 
     #[test]
     fn a_block_has_a_wall_for_each_edge_and_a_lid() {

@@ -5,6 +5,7 @@ use fbcrowd_sim::scenario::{CameraSpec, ShotSpec};
 use glam::Vec3;
 use tiny_skia::Pixmap;
 
+use crate::camera::blocks::solid_at;
 use crate::camera::captions::CameraCaptions;
 use crate::camera::default_camera::{DEFAULT_NAME, default_camera};
 use crate::camera::options::CameraOptions;
@@ -114,7 +115,8 @@ impl<'a> Take<'a> {
         Ok(sum.mean())
     }
 
-    /// The agents that do not hold the eye. The default camera looks through those that walk into it.
+    /// The agents that do not hold the eye. The default camera looks through those that walk into it; the eye of another
+    /// one must be in the open.
     fn outside_eye(&self, agents: Vec<AgentFrame>, eye_m: Vec3, frame: u32) -> Result<Vec<AgentFrame>, RenderError> {
         let holds_eye = |agent: &AgentFrame| {
             let is_own = Some(agent.id.0) == self.camera.eyes_of;
@@ -124,8 +126,9 @@ impl<'a> Take<'a> {
         if self.camera.name == DEFAULT_NAME || self.camera.eyes_of.is_some() {
             return Ok(agents.into_iter().filter(|agent| !holds_eye(agent)).collect());
         }
-        match agents.iter().find(|agent| holds_eye(agent)) {
-            Some(agent) => Err(RenderError::EyeInside { camera: self.camera.name.clone(), agent: agent.id.0, frame }),
+        let in_agent = agents.iter().find(|agent| holds_eye(agent)).map(|agent| format!("inside agent {}", agent.id.0));
+        match in_agent.or_else(|| solid_at(&self.recording.header().scenario, eye_m).map(str::to_owned)) {
+            Some(place) => Err(RenderError::EyeInside { camera: self.camera.name.clone(), eye_m, place, frame }),
             None => Ok(agents),
         }
     }
