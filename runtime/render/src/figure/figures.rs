@@ -30,8 +30,11 @@ const BODY: u32 = 1;
 /// A part of a body that some agents have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Piece {
-    /// Trunk, head, arms, hands and shoes.
+    /// Trunk, head, hands and shoes.
     Core,
+    LongSleeves,
+    /// Short sleeves, and bare forearms.
+    ShortSleeves,
     TrouserLegs,
     BareLegs,
     ShortLegs,
@@ -41,8 +44,10 @@ enum Piece {
 }
 
 impl Piece {
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 14] = [
         Self::Core,
+        Self::LongSleeves,
+        Self::ShortSleeves,
         Self::TrouserLegs,
         Self::BareLegs,
         Self::ShortLegs,
@@ -60,6 +65,8 @@ impl Piece {
     fn is_of(self, style: &Style) -> bool {
         match self {
             Self::Core => true,
+            Self::LongSleeves => style.has_long_sleeves,
+            Self::ShortSleeves => !style.has_long_sleeves,
             Self::TrouserLegs => !style.has_bare_legs(),
             Self::BareLegs => style.has_bare_legs(),
             Self::ShortLegs => style.clothes == Clothes::Shorts,
@@ -73,6 +80,8 @@ impl Piece {
         let mut template = Template::default();
         match self {
             Self::Core => template.add_core(build),
+            Self::LongSleeves => Side::BOTH.into_iter().for_each(|side| template.add_long_sleeve(build, side)),
+            Self::ShortSleeves => Side::BOTH.into_iter().for_each(|side| template.add_short_sleeve(build, side)),
             Self::TrouserLegs => Side::BOTH.into_iter().for_each(|side| template.add_trouser_leg(build, side)),
             Self::BareLegs => Side::BOTH.into_iter().for_each(|side| template.add_bare_leg(build, side)),
             Self::ShortLegs => Side::BOTH.into_iter().for_each(|side| template.add_short_leg(build, side)),
@@ -89,7 +98,6 @@ impl Template {
         self.add_trunk(build);
         self.add_head(build);
         for side in Side::BOTH {
-            self.add_arm(build, side);
             self.add_hand(build, side);
             self.add_shoe(build, side);
         }

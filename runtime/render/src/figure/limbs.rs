@@ -69,27 +69,21 @@ const BARE_LEG: [[f32; 4]; 13] = [
 const SHORTS_END: f32 = 0.83;
 
 impl Template {
-    pub(crate) fn add_arm(&mut self, build: &Build, side: Side) {
-        let joints = arm(side);
-        let [shoulder, elbow, wrist] = joints.map(|joint| build.joint(joint));
-        let slim = build.by_sex(1.0, 0.84) * build.scale;
-        let place = |at: f32| if at < 1.0 { shoulder.lerp(elbow, at) } else { elbow.lerp(wrist, at - 1.0) };
-        let section = |[at, depth, height]: [f32; 3], cloth: Cloth| {
-            let (index, share) = bend(at);
-            let size = slim * loose(cloth, at);
-            Section {
-                joints: [joints[index].index(), joints[index + 1].index()],
-                share,
-                ..Section::round(place(at), Vec3::Z * height * size, Vec3::X * depth * size, joints[0].index(), cloth)
-            }
-        };
-        let points = build.fineness.points(8);
-        // Skin or sleeve below, a sleeve above that ends with a hem.
+    /// An arm in a sleeve down to the wrist.
+    pub(crate) fn add_long_sleeve(&mut self, build: &Build, side: Side) {
+        let sections: Vec<Section> = ARM.iter().map(|row| arm_section(build, side, *row, Cloth::Sleeve)).collect();
+        self.loft_limb(&sections, build.fineness.points(8), side);
+    }
+
+    /// A bare arm below, above it a sleeve that ends with a hem.
+    pub(crate) fn add_short_sleeve(&mut self, build: &Build, side: Side) {
+        let section = |row: [f32; 3], cloth: Cloth| arm_section(build, side, row, cloth);
         let is_below = |row: &&[f32; 3]| row[0] > SLEEVE_END - 0.2;
-        let below: Vec<Section> = ARM.iter().filter(is_below).map(|row| section(*row, Cloth::Sleeve)).collect();
+        let below: Vec<Section> = ARM.iter().filter(is_below).map(|row| section(*row, Cloth::Skin)).collect();
         let sleeve = ARM.iter().take_while(|row| row[0] < SLEEVE_END).copied();
         let hem = [[SLEEVE_END, 0.0462, 0.0462], [SLEEVE_END + 0.004, 0.040, 0.040]];
         let above: Vec<Section> = sleeve.chain(hem).map(|row| section(row, Cloth::Shirt)).collect();
+        let points = build.fineness.points(8);
         self.loft_limb(&below, points, side);
         self.loft_limb(&above, points, side);
     }
@@ -128,6 +122,20 @@ impl Template {
     }
 }
 
+/// A section of an arm: place, half width fore and aft, half height.
+fn arm_section(build: &Build, side: Side, [at, depth, height]: [f32; 3], cloth: Cloth) -> Section {
+    let joints = arm(side);
+    let [shoulder, elbow, wrist] = joints.map(|joint| build.joint(joint));
+    let place = if at < 1.0 { shoulder.lerp(elbow, at) } else { elbow.lerp(wrist, at - 1.0) };
+    let size = build.by_sex(1.0, 0.84) * build.scale * loose(cloth, at);
+    let (index, share) = bend(at);
+    Section {
+        joints: [joints[index].index(), joints[index + 1].index()],
+        share,
+        ..Section::round(place, Vec3::Z * height * size, Vec3::X * depth * size, joints[0].index(), cloth)
+    }
+}
+
 /// A section of a leg: place, half depth, half width, shift forward.
 fn leg(build: &Build, side: Side, [at, depth, width, shift]: [f32; 4], cloth: Cloth) -> Section {
     let index = side.index();
@@ -149,9 +157,9 @@ fn leg(build: &Build, side: Side, [at, depth, width, shift]: [f32; 4], cloth: Cl
     Section { joints: [joints[from].index(), last.index()], share, ..round }
 }
 
-/// Factor of a cloth's size: a sleeve hangs about the arm.
+/// Factor of a cloth's size: a sleeve hangs about the arm, and narrows to the wrist.
 fn loose(cloth: Cloth, at: f32) -> f32 {
-    if cloth == Cloth::Shirt && at > 0.1 { 1.0 + 0.035 * ((at - 0.1) / 0.4).min(1.0) } else { 1.0 }
+    if cloth == Cloth::Skin { 1.0 } else { 1.0 + 0.035 * ((at - 0.1) / 0.4).min((2.0 - at) / 0.5).clamp(0.0, 1.0) }
 }
 
 /// The first of the two joints that a place on a limb follows, and the share of the second.

@@ -89,7 +89,7 @@ pub(crate) struct Style {
     pub(crate) age: Age,
     pub(crate) hair: HairStyle,
     pub(crate) clothes: Clothes,
-    has_long_sleeves: bool,
+    pub(crate) has_long_sleeves: bool,
     shoe: Rgb,
     /// Share of grey in the hair.
     grey: f32,
