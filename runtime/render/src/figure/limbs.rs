@@ -49,10 +49,9 @@ const LEG: [[f32; 4]; 14] = [
     [1.948, 0.036, 0.033, 0.000],
 ];
 
-/// Sections of a bare leg.
-const BARE_LEG: [[f32; 4]; 13] = [
-    [0.250, 0.080, 0.071, 0.002],
-    [0.450, 0.075, 0.067, 0.006],
+/// Sections of a bare leg, which begins under cloth: where a long step lifts the thigh, its upper end stays below the cloth.
+const BARE_LEG: [[f32; 4]; 12] = [
+    [0.550, 0.071, 0.064, 0.006],
     [0.650, 0.066, 0.060, 0.007],
     [0.850, 0.057, 0.053, 0.006],
     [0.960, 0.055, 0.051, 0.007],

@@ -15,10 +15,10 @@ const SKIRT: [[f32; 4]; 8] = [
     [0.950, 0.158, 0.098, 0.110],
     [0.915, 0.171, 0.107, 0.125],
     [0.870, 0.180, 0.113, 0.134],
-    [0.800, 0.188, 0.126, 0.140],
-    [0.700, 0.200, 0.142, 0.152],
-    [0.600, 0.214, 0.160, 0.168],
-    [0.540, 0.222, 0.170, 0.177],
+    [0.800, 0.188, 0.134, 0.140],
+    [0.700, 0.200, 0.154, 0.154],
+    [0.600, 0.214, 0.171, 0.170],
+    [0.540, 0.222, 0.180, 0.180],
 ];
 /// Sections of a coat below the waist.
 const COAT: [[f32; 4]; 8] = [
@@ -32,9 +32,9 @@ const COAT: [[f32; 4]; 8] = [
     [0.580, 0.215, 0.163, 0.170],
 ];
 /// Height up to which cloth follows the thighs alone, and from which it follows the pelvis alone, on the reference body, m.
-const FOLLOWS_M: [f32; 2] = [0.80, 0.93];
-/// Half width over which cloth changes from one thigh to the other, m.
-const BETWEEN_M: f32 = 0.07;
+const FOLLOWS_M: [f32; 2] = [0.78, 0.96];
+/// Half width over which cloth changes from one thigh to the other, m: about that of the hips.
+const BETWEEN_M: f32 = 0.12;
 /// Thickness of the hem, m.
 const HEM_M: f32 = 0.012;
 
@@ -77,9 +77,89 @@ fn section(build: &Build, [height, width, front, back]: [f32; 4]) -> Section {
 fn follow_thighs(vertex: &mut Vertex, scale: f32) {
     let point = vertex.position / scale;
     let [low, high] = FOLLOWS_M;
-    let left = (0.5 + 0.5 * point.y / BETWEEN_M).clamp(0.0, 1.0);
-    let thigh = 1.0 - ((point.z - low) / (high - low)).clamp(0.0, 1.0);
+    let left = smooth_step(0.5 + 0.5 * point.y / BETWEEN_M);
+    let thigh = 1.0 - smooth_step((point.z - low) / (high - low));
     let [left_thigh, right_thigh] = Joint::THIGHS.map(Joint::index);
     let shares = [1.0 - thigh, thigh * left, thigh * (1.0 - left)];
     vertex.follow([(Joint::Pelvis.index(), shares[0]), (left_thigh, shares[1]), (right_thigh, shares[2])]);
+}
+
+/// Hermite's step from 0 to 1, level at both ends: cloth has no edge there.
+fn smooth_step(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use fbcrowd_sim::recording::Recording;
+    use glam::Mat3;
+    use motiondb::body::Side;
+
+    use super::*;
+    use crate::figure::build::Fineness;
+    use crate::figure::style::{CLOTHS, Sex};
+    use crate::figure::template::PosedJoint;
+    use crate::visibility::{Meshes, Owner};
+
+    /// A body at rest whose straight legs are swung forward by angles.
+    fn striding(build: &Build, forward_rad: [f32; 2]) -> Vec<PosedJoint> {
+        let at_rest = |rest: &Vec3| PosedJoint { rotation: Mat3::IDENTITY, rest: *rest, position: *rest };
+        let mut joints: Vec<PosedJoint> = build.rest.iter().map(at_rest).collect();
+        for (side, angle_rad) in forward_rad.into_iter().enumerate() {
+            let hip = build.joint(Joint::THIGHS[side]);
+            let rotation = Mat3::from_rotation_y(-angle_rad);
+            for joint in [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]] {
+                let rest = build.joint(joint);
+                joints[joint.index()] = PosedJoint { rotation, rest, position: hip + rotation * (rest - hip) };
+            }
+        }
+        joints
+    }
+
+    fn posed(template: Template, joints: &[PosedJoint]) -> Meshes {
+        let mut meshes = Meshes::default();
+        template.append(&mut meshes, joints, &[Vec3::ONE; CLOTHS], Owner::SCENE);
+        meshes
+    }
+
+    /// Whether a ray from a point meets a triangle.
+    fn meets(corners_m: [Vec3; 3], from_m: Vec3, direction: Vec3) -> bool {
+        let [a, b, c] = corners_m.map(|corner_m| corner_m - from_m);
+        let volumes = [a.cross(b), b.cross(c), c.cross(a)].map(|across| across.dot(direction));
+        let is_across = volumes.iter().all(|volume| *volume > 0.0) || volumes.iter().all(|volume| *volume < 0.0);
+        is_across && a.dot((b - a).cross(c - a)) * direction.dot((b - a).cross(c - a)) > 0.0
+    }
+
+    #[test]
+    fn legs_stay_inside_a_skirt_in_strides() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/walkers.fbrec");
+        let recording = Recording::open(&path).unwrap();
+        for fineness in Fineness::ALL {
+            let build = Build::new(recording.header().skeleton(), Sex::Female, fineness);
+            for forward_rad in [[0.35, -0.35], [0.52, -0.3], [-0.3, 0.52]] {
+                let joints = striding(&build, forward_rad);
+                let (mut skirt, mut legs) = (Template::default(), Template::default());
+                skirt.add_skirt(&build);
+                Side::BOTH.into_iter().for_each(|side| legs.add_bare_leg(&build, side));
+                let [skirt, legs] = [skirt, legs].map(|template| posed(template, &joints));
+                let covers = |from_m: Vec3, direction: Vec3| {
+                    (0..skirt.triangles.len()).any(|triangle| meets(skirt.corners_m(triangle), from_m, direction))
+                };
+                // Above the hem where a thigh lifts it.
+                let above = legs.positions_m.iter().filter(|point_m| point_m.z > 0.72 * build.scale);
+                let mut count = 0;
+                for point_m in above {
+                    count += 1;
+                    assert!(
+                        covers(*point_m, Vec3::X) && covers(*point_m, -Vec3::X),
+                        "{fineness:?} {forward_rad:?} {point_m}"
+                    );
+                }
+                assert!(count > 0, "{forward_rad:?}");
+            }
+        }
+    }
 }
