@@ -5,7 +5,7 @@
 //! crowd is ten copies of the smaller one; in another case all wear skinned characters: one of tubes, or the characters of
 //! files, with their textures. The least duration counts: other work of the machine only lengthens it. An EXR file with
 //! depth, normals, motion and a Cryptomatte is drawn and written on two threads, compressed and not: the difference is
-//! the encoding.
+//! the encoding. Where a Python has Blender as a package, Cycles draws the triangles of the skinned characters, too.
 
 use std::fs;
 use std::hint::black_box;
@@ -38,6 +38,7 @@ use crate::kit::crowd::disc;
 use crate::kit::database::bundled;
 use crate::kit::report::{BenchReport, Goal};
 use crate::kit::threads::pool;
+use crate::speed::cycles::CyclesCase;
 use crate::speed::tube_character::tube_character;
 
 /// Agents of the smaller crowd.
@@ -65,6 +66,10 @@ pub struct Args {
     /// A GLB, glTF, VRM or .fbchar file of a character; several are worn in turn. The default is a figure of tubes.
     #[arg(long = "character", value_name = "FILE")]
     pub characters: Vec<PathBuf>,
+    /// A Python with Blender's package `bpy`, in which Cycles draws the same characters; by default that of
+    /// `FBCROWD_BLENDER_PYTHON`, else python3.11 or python3, where they have it.
+    #[arg(long, value_name = "PYTHON")]
+    pub blender_python: Option<PathBuf>,
 }
 
 /// What was measured.
@@ -74,6 +79,8 @@ pub struct Details {
     pub cases: Vec<Case>,
     /// An EXR file with passes.
     pub exr: ExrCase,
+    /// The skinned characters, drawn by Cycles.
+    pub cycles: CyclesCase,
 }
 
 /// An EXR file of a frame with depth, normals, motion and a Cryptomatte by agent, drawn and written on two threads.
@@ -134,7 +141,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     for (index, life) in dressed.agents.iter_mut().enumerate() {
         life.character = Some((index % characters.len()) as u32);
     }
-    let work = Work::begin(observer, "frames", (LIGHTS.len() + 4) * args.turns as usize);
+    let work = Work::begin(observer, "frames", (LIGHTS.len() + 4) * args.turns as usize + 1);
     let one_thread = pool(1)?;
     let time = |agents: &[AgentFrame], lens: Lens, light: usize, worn: &[Character]| {
         let (name, shadow, occlusion, _) = LIGHTS[light];
@@ -159,6 +166,11 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     cases.push(time(&large, wide_lens(150.0), 1, &[]));
     cases.push(time(&small, wide_lens(34.0), 1, &characters));
     let exr = exr_case(&db, &simulation, args.turns, &work)?;
+    let view = CameraView::new(&header, &dressed, Quality::default(), ColourBy::Agent).with_characters(&characters);
+    let shot = Shot { lens: wide_lens(34.0), time_s: 0.0, eyes_of: None, fog_m: None };
+    let drawn = view.scene(&shot, &small);
+    let cycles = CyclesCase::measure(args.blender_python.as_deref(), &drawn.meshes, &shot.lens);
+    work.advance();
     work.end();
     let mut goals: Vec<Goal> = cases
         .iter()
@@ -177,7 +189,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     });
     let name = "EXR with a Cryptomatte, s to encode on two threads";
     goals.push(Goal { name, measured: Some(exr.encoding_s), goal: ENCODING_GOAL_S });
-    let details = Details { cases, exr };
+    let details = Details { cases, exr, cycles };
     Ok(BenchReport { text: text(&details), details, goals, criteria: Vec::new() })
 }
 
@@ -320,5 +332,6 @@ fn text(details: &Details) -> String {
          {:.1} MB\n",
         bytes as f64 / 1e6
     );
-    details.cases.iter().map(line).collect::<String>() + &exr
+    let ours_s = details.cases.last().map_or(f64::NAN, |case| case.frame_s);
+    details.cases.iter().map(line).collect::<String>() + &exr + &details.cycles.line(ours_s)
 }
