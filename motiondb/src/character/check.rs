@@ -102,9 +102,13 @@ fn mesh_fault(character: &Character) -> Option<String> {
             && normals[vertex].is_finite()
             && normals[vertex].length_squared() < 1.0 + UNIT_TOLERANCE
             && colours[vertex].iter().all(|part| (0.0..=1.0).contains(part))
-            && are_weights(&joints[vertex], &weights[vertex], character.joints.len())
     };
-    (0..count).find(|&vertex| !is_vertex(vertex)).map(|vertex| format!("vertex {vertex} is out of range"))
+    let has_weights = |vertex: usize| are_weights(&joints[vertex], &weights[vertex], character.joints.len());
+    (0..count).find_map(|vertex| match (is_vertex(vertex), has_weights(vertex)) {
+        (true, true) => None,
+        (false, _) => Some(format!("vertex {vertex} is out of range")),
+        (true, false) => Some(format!("the weights of vertex {vertex} do not fall, or do not add up to 1")),
+    })
 }
 
 fn textures_fault(character: &Character) -> Option<String> {
@@ -139,7 +143,9 @@ fn textures_fault(character: &Character) -> Option<String> {
 }
 
 fn are_weights(joints: &[u16; WEIGHT_COUNT], weights: &[f32; WEIGHT_COUNT], joint_count: usize) -> bool {
+    // Skinning ends at the first weight of 0.
     joints.iter().all(|&joint| usize::from(joint) < joint_count)
+        && weights.is_sorted_by(|a, b| a >= b)
         && weights.iter().all(|weight| (0.0..=1.0).contains(weight))
         && (weights.iter().sum::<f32>() - 1.0).abs() < UNIT_TOLERANCE
 }

@@ -102,6 +102,14 @@ fn a_small_file_of_billions_of_triangles_is_rejected() {
     check_rejected(&json, &bytes, "3000000000 triangles, more than 2000000");
 }
 
+#[test]
+fn weights_that_do_not_fall_are_rejected() {
+    let mut character = compiled(&Figure::adult().glb()).character;
+    character.mesh.weights[3] = [0.4, 0.0, 0.6, 0.0];
+    let error = from_bytes(Path::new("figure.fbchar"), &to_bytes(&character)).unwrap_err().to_string();
+    assert!(error.contains("weights of vertex 3") && error.contains("compile it again"), "{error}");
+}
+
 /// A container with a valid checksum around a payload.
 fn sealed(payload: &[u8]) -> Vec<u8> {
     motiondb::files::container::seal(motiondb::character::MAGIC, motiondb::character::VERSION, payload)
