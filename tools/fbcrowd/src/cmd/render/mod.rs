@@ -93,8 +93,8 @@ struct CameraArgs {
     /// The camera; by default the scenario's first, else `default`, which frames the crowd at eye height.
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
-    /// Take cameras from a TOML file with [camera] or [[cameras]], such as a scenario, or from a GLB or glTF file; and the
-    /// picture size from [view] of a TOML file.
+    /// Take cameras from a TOML file with `[camera]` or `[[cameras]]`, such as a scenario, or from a GLB or glTF file;
+    /// and the picture size from `[view]` of a TOML file.
     #[arg(long, value_name = "FILE")]
     cameras: Option<PathBuf>,
     /// Width and height of the pictures, pixels; default: the scenario's `[view]`.
