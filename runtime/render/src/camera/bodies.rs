@@ -93,11 +93,11 @@ impl Dresser<'_> {
             for at in first..(first + AGENTS_AT_ONCE).min(seen.agents.len()) {
                 let agent = &seen.agents[at];
                 if Some(agent.id.0) != seen.hidden && is_near_picture(seen.lens, agent) {
-                    let (stature, first) = (self.stature(agent), parts.meshes.triangles.len());
+                    let (stature, first_triangle) = (self.stature(agent), parts.meshes.triangles.len());
                     let height_px = stature * height_px(seen.lens, agent);
                     self.append_sized(&mut parts, &seen.posed[at], stature, height_px, shown(at));
                     if is_near_eye(seen.lens, agent, stature) {
-                        parts.meshes.open(first);
+                        parts.meshes.open(first_triangle);
                     }
                 }
             }

@@ -87,9 +87,7 @@ impl StepTiming {
             *self = Self::default();
         }
     }
-}
 
-impl StepTiming {
     /// Follows a clip: its pace, and how far it has moved ahead of the root, world, m.
     pub(crate) fn follow_clip(&mut self, pace: f32, ahead_m: Vec2) {
         self.pace = pace;
