@@ -92,10 +92,10 @@ fn files_of_another_version_or_kind_are_refused_by_name() {
             assert_eq!(outcome.stdout, "", "{command}");
         }
     };
-    let next = container::seal(database_file::MAGIC, database_file::VERSION + 1, payload);
-    check("next.fbdb", &next, &["format version 4", "reads version 3"]);
+    let next = container::seal(database_file::MAGIC, database_file::EXTRA_VERSION + 1, payload);
+    check("next.fbdb", &next, &["format version 5", "reads version 4"]);
     let last = container::seal(database_file::MAGIC, database_file::VERSION - 1, payload);
-    check("last.fbdb", &last, &["format version 2", "reads version 3", "compile the clips again"]);
+    check("last.fbdb", &last, &["format version 2", "reads version 4", "compile the clips again"]);
     check("kind.fbdb", &container::seal(*b"FBCROWDR", database_file::VERSION, payload), &["magic number"]);
     check("cut.fbdb", &whole[..whole.len() - 1], &["bytes of payload"]);
     check("altered.fbdb", &[&whole[..whole.len() - 1], &[!whole[whole.len() - 1]]].concat(), &["checksum"]);

@@ -14,7 +14,9 @@ fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("any.fbdb");
     let _ = database_file::from_bytes(path, bytes);
     let payload = bytes.get(HEADER_LENGTH..).unwrap_or_default();
-    if let Ok((db, _)) = database_file::from_bytes(path, &container::seal(database_file::MAGIC, database_file::VERSION, payload)) {
+    for version in [database_file::VERSION, database_file::EXTRA_VERSION] {
+        let sealed = container::seal(database_file::MAGIC, version, payload);
+        let Ok((db, _)) = database_file::from_bytes(path, &sealed) else { continue };
         if validate::validate(&db).iter().all(|check| check.broken.is_none()) {
             let _ = (example_quality::lint(&db), action_quality::lint(&db));
         }

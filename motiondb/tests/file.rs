@@ -5,9 +5,11 @@ mod support;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use motiondb::MotionDb;
+use motiondb::files::container::{self, HEADER_LENGTH};
 use motiondb::files::database_file::{self, FileError};
 use proptest::prelude::*;
-use support::small_db;
+use support::{db_with_fingers, small_db};
 
 fn path_of(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
@@ -22,6 +24,40 @@ fn a_written_database_is_read_again() {
     let checksum = database_file::write(&path, &small_db()).unwrap();
     assert_eq!(database_file::load(&path).unwrap(), (small_db(), checksum));
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+#[track_caller]
+fn check_read_again(db: &MotionDb, version: u32) {
+    let bytes = database_file::to_bytes(db);
+    assert_eq!(container::stated_version(&bytes), Some(version));
+    assert_eq!(&database_file::from_bytes(Path::new("kept"), &bytes).unwrap().0, db);
+}
+
+#[test]
+fn only_sets_with_extra_joints_have_a_newer_version() {
+    let styled = |db: MotionDb| MotionDb {
+        further_styles: vec![MotionDb { style: "elderly".into(), ..db.clone() }],
+        style: "neutral".into(),
+        ..db
+    };
+    for (db, version) in [(small_db(), 3), (db_with_fingers(), 4)] {
+        check_read_again(&db, version);
+        check_read_again(&styled(db), version);
+    }
+    let (without, with) = (database_file::to_bytes(&small_db()), database_file::to_bytes(&db_with_fingers()));
+    let rotations = db_with_fingers().extra;
+    let added = 16 * (rotations.rotations.len() + rotations.actions.concat().len());
+    assert!((added..added + 100).contains(&(with.len() - without.len())));
+    assert_eq!(with[HEADER_LENGTH..without.len()], without[HEADER_LENGTH..]);
+}
+
+#[test]
+fn unknown_and_endless_extra_joints_are_refused() {
+    let plain = database_file::to_bytes(&small_db())[HEADER_LENGTH..].to_vec();
+    for damaged in [&[][..], &[1, 0, 0, 0, 0, 0, 0, 0, 200], &[255; 8], &[0; 23], &[0; 25]] {
+        let sealed = container::seal(database_file::MAGIC, 4, &[&plain, damaged].concat());
+        assert!(database_file::from_bytes(Path::new("damaged"), &sealed).is_err(), "{damaged:?}");
+    }
 }
 
 #[test]
@@ -53,7 +89,7 @@ fn a_broken_invariant_is_read_but_not_loaded() {
 proptest! {
     #[test]
     fn no_altered_or_cut_file_is_read(share in 0.0f64..1.0, bit in 0u8..8, cut in any::<bool>()) {
-        let mut bytes = database_file::to_bytes(&small_db());
+        let mut bytes = database_file::to_bytes(&db_with_fingers());
         let offset = (share * bytes.len() as f64) as usize;
         if cut {
             bytes.truncate(offset);

@@ -8,7 +8,7 @@ use motiondb::motion::{ActionKind, MotionDb, PHASE_COUNT};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::{first_broken, validate};
 use motiondb::velocity_sets::velocity_hull::Construction;
-use support::small_db;
+use support::{db_with_fingers, small_db};
 
 /// Checks that this invariant is the first that the fault breaks.
 #[track_caller]
@@ -46,6 +46,37 @@ fn faults_of_structure_are_named() {
     check_breaks("indices_are_in_range", |db| db.blend_space.simplices.push(0));
     check_breaks("indices_are_in_range", |db| db.blend_space.dimension = u32::MAX);
     check_breaks("names_are_unique", |db| db.examples[1].name = db.examples[0].name.clone());
+}
+
+#[track_caller]
+fn check_extra_breaks(invariant: &str, fault: impl Fn(&mut MotionDb)) {
+    check_breaks(invariant, |db| {
+        *db = db_with_fingers();
+        fault(db);
+    });
+}
+
+#[test]
+fn faults_of_extra_joints_are_named() {
+    assert!(validate(&db_with_fingers()).iter().all(|check| check.broken.is_none()));
+    let complete = "extra_joints_are_complete";
+    check_extra_breaks(complete, |db| db.extra.bones.reverse());
+    check_extra_breaks(complete, |db| db.extra.bones.rotate_left(1));
+    check_extra_breaks(complete, |db| db.extra.bones.retain(|bone| bone.joint.index() > 6));
+    check_extra_breaks(complete, |db| db.extra.rotations.truncate(7));
+    check_extra_breaks(complete, |db| db.extra.actions.truncate(1));
+    check_extra_breaks(complete, |db| db.extra.actions[1].truncate(3));
+    check_extra_breaks(complete, |db| db.extra.bones.clear());
+    let values = "extra_rotations_are_unit_and_aligned";
+    check_extra_breaks(values, |db| db.extra.bones[1].offset_m.x = f32::NAN);
+    check_extra_breaks(values, |db| db.extra.rotations[9] *= 1.1);
+    check_extra_breaks(values, |db| db.extra.actions[0][9] *= -1.0);
+    check_extra_breaks("styles_share_the_skeleton", |db| {
+        db.style = "neutral".into();
+        let mut other = MotionDb { style: "elderly".into(), ..db.clone() };
+        other.extra.bones[0].offset_m.y += 0.01;
+        db.further_styles.push(other);
+    });
 }
 
 #[test]

@@ -17,6 +17,7 @@ const PAYLOAD_LIMIT: usize = 192 << 20;
 static KIND: FileKind = FileKind {
     magic: MAGIC,
     version: VERSION,
+    oldest: VERSION,
     noun: "character",
     remedy: "compile it again with `fbcrowd compile`",
     payload_max: PAYLOAD_LIMIT,

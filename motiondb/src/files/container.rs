@@ -69,6 +69,11 @@ pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// The format version that the header states; `None` where the header is cut.
+pub fn stated_version(bytes: &[u8]) -> Option<u32> {
+    bytes.first_chunk().map(|header| u32_at(header, 8))
+}
+
 /// Checks a container; returns payload and checksum.
 ///
 /// # Errors

@@ -2,7 +2,8 @@
 //! dates and no order of a hash map.
 //!
 //! The payload is the database; where the set has styles, the name of its style and the further styles, each a name and
-//! a database, follow.
+//! a database, follow. Where the set has joints beside the 22 roles, the format version is [`EXTRA_VERSION`], and the
+//! motion of these joints follows each database. Any other set has [`VERSION`].
 
 use std::path::Path;
 
@@ -12,19 +13,23 @@ use serde::de::DeserializeOwned;
 use crate::files::container;
 pub use crate::files::file_kind::FileError;
 use crate::files::file_kind::FileKind;
+use crate::motion::extra_motion::ExtraMotion;
 use crate::motion::motion_db::MotionDb;
 use crate::validate;
 
 /// Magic number with which a database file begins.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";
-/// Format version; a file of any other version is rejected.
+/// Format version of a database of the 22 roles alone.
 pub const VERSION: u32 = 3;
+/// Format version of a database with extra joints; a newer one is rejected, as is one older than [`VERSION`].
+pub const EXTRA_VERSION: u32 = 4;
 /// Greatest length of a payload that is decoded, bytes: 4096 examples of 64 rows take 100 MB, an hour of actions 90.
 const PAYLOAD_LIMIT: usize = 256 << 20;
 /// Databases as files.
 static KIND: FileKind = FileKind {
     magic: MAGIC,
-    version: VERSION,
+    version: EXTRA_VERSION,
+    oldest: VERSION,
     noun: "motion database",
     remedy: "compile the clips again with `fbcrowd compile`",
     payload_max: PAYLOAD_LIMIT,
@@ -33,6 +38,14 @@ static KIND: FileKind = FileKind {
 /// The bytes of the file of a database.
 pub fn to_bytes(db: &MotionDb) -> Vec<u8> {
     let mut payload = encoded(db);
+    if db.has_extra_joints() {
+        payload.extend(encoded(&db.extra));
+        if db.has_styles() {
+            let further = db.further_styles.iter().map(|db| (db.style.as_str(), db, &db.extra));
+            payload.extend(encoded(&(&db.style, further.collect::<Vec<_>>())));
+        }
+        return container::seal(MAGIC, EXTRA_VERSION, &payload);
+    }
     if db.has_styles() {
         let further: Vec<(&str, &MotionDb)> = db.further_styles.iter().map(|db| (db.style.as_str(), db)).collect();
         payload.extend(encoded(&(&db.style, further)));
@@ -51,19 +64,40 @@ fn encoded(content: &impl Serialize) -> Vec<u8> {
 pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileError> {
     let (payload, checksum) = KIND.opened(path, bytes)?;
     let decode = |reason: String| KIND.undecoded(path, format!("its content cannot be decoded: {reason}"));
+    let has_extra_joints = container::stated_version(bytes) == Some(EXTRA_VERSION);
     let (mut db, mut rest): (MotionDb, &[u8]) = decoded(payload).map_err(decode)?;
+    if has_extra_joints {
+        let no_joints = |reason: String| decode(format!("its extra joints are damaged: {reason}"));
+        (db.extra, rest) = decoded(rest).map_err(no_joints)?;
+    }
     if !rest.is_empty() {
+        let count = rest.len();
         let no_styles =
-            |reason: String| format!("{} bytes follow the database, which are no styles: {reason}", rest.len());
-        let styles: (String, Vec<(String, MotionDb)>);
-        (styles, rest) = decoded(rest).map_err(|reason| decode(no_styles(reason)))?;
-        let further = styles.1.into_iter();
-        (db.style, db.further_styles) = (styles.0, further.map(|(style, db)| MotionDb { style, ..db }).collect());
+            |reason: String| decode(format!("{count} bytes follow the database, which are no styles: {reason}"));
+        let styles = if has_extra_joints { decoded_styles(rest) } else { decoded_plain_styles(rest) };
+        ((db.style, db.further_styles), rest) = styles.map_err(no_styles)?;
     }
     if !rest.is_empty() {
         return Err(decode(format!("{} bytes follow the database", rest.len())));
     }
     Ok((db, checksum))
+}
+
+/// The name of the first style, and the further styles.
+type Styles = (String, Vec<MotionDb>);
+
+/// The styles of a set of the 22 roles alone, and the bytes after them.
+fn decoded_plain_styles(bytes: &[u8]) -> Result<(Styles, &[u8]), String> {
+    let ((style, further), rest): ((String, Vec<(String, MotionDb)>), _) = decoded(bytes)?;
+    let further = further.into_iter().map(|(style, db)| MotionDb { style, ..db });
+    Ok(((style, further.collect()), rest))
+}
+
+/// The styles of a set with extra joints, and the bytes after them.
+fn decoded_styles(bytes: &[u8]) -> Result<(Styles, &[u8]), String> {
+    let ((style, further), rest): ((String, Vec<(String, MotionDb, ExtraMotion)>), _) = decoded(bytes)?;
+    let further = further.into_iter().map(|(style, db, extra)| MotionDb { style, extra, ..db });
+    Ok(((style, further.collect()), rest))
 }
 
 /// What some bytes begin with, and the bytes after it; or why they cannot be decoded.

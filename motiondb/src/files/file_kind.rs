@@ -12,8 +12,10 @@ use crate::files::{atomic_file, input_file};
 pub struct FileKind {
     /// Magic number with which a file begins.
     pub magic: [u8; 8],
-    /// Format version; a file of any other version is rejected.
+    /// Newest format version; a file of a newer one is rejected.
     pub version: u32,
+    /// Oldest format version; a file of an older one is rejected.
+    pub oldest: u32,
     /// What messages call it.
     pub noun: &'static str,
     /// What to do about a damaged one.
@@ -91,7 +93,7 @@ impl FileKind {
     /// # Errors
     /// [`FileError::Container`], and [`FileError::Decode`] where the payload is too long.
     pub fn opened<'a>(&'static self, path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], u32), FileError> {
-        let opened = container::open(self.magic, self.version, bytes);
+        let opened = container::open(self.magic, self.version_of(bytes), bytes);
         let (payload, checksum) = opened.map_err(|source| self.container(path, source))?;
         match payload.len() <= self.payload_max {
             true => Ok((payload, checksum)),
@@ -109,7 +111,7 @@ impl FileKind {
         let length = file.metadata().map_err(unreadable)?.len();
         let mut bytes = Vec::new();
         file.by_ref().take(HEADER_LENGTH as u64).read_to_end(&mut bytes).map_err(unreadable)?;
-        container::check_header(self.magic, self.version, &bytes, length)
+        container::check_header(self.magic, self.version_of(&bytes), &bytes, length)
             .map_err(|source| self.container(path, source))?;
         if length > (HEADER_LENGTH + self.payload_max) as u64 {
             return Err(self.too_long(path));
@@ -125,6 +127,12 @@ impl FileKind {
     pub fn write(&'static self, path: &Path, bytes: &[u8]) -> Result<u32, FileError> {
         atomic_file::write(path, bytes).map_err(|source| FileError::Unwritable { path: path.to_owned(), source })?;
         Ok(self.opened(path, bytes)?.1)
+    }
+
+    /// The format version of a file's bytes where this program reads it; else the newest.
+    fn version_of(&self, bytes: &[u8]) -> u32 {
+        let is_read = |version: &u32| (self.oldest..=self.version).contains(version);
+        container::stated_version(bytes).filter(is_read).unwrap_or(self.version)
     }
 
     /// The error that a payload is not of this kind.

@@ -14,6 +14,7 @@ use crate::body::pose::{Joints, Pose};
 use crate::body::skeleton::{JOINT_COUNT, Skeleton};
 use crate::diagnostic::Diagnostic;
 use crate::motion::action::{Action, ActionKind};
+use crate::motion::extra_motion::ExtraMotion;
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
 use crate::velocity_sets::velocity_hull::VelocityHull;
@@ -53,8 +54,11 @@ pub struct MotionDb {
     pub correspondence: Option<Correspondence>,
     /// Idles, the best first, then transitions by kind and name.
     pub actions: Vec<Action>,
+    /// Motion of the joints beside the 22 roles; all styles have the same joints.
+    // The file holds this field and the next two after the others, and only where they are not empty.
+    #[serde(skip)]
+    pub extra: ExtraMotion,
     /// The style of all clips, such as `elderly`; empty where none is stated or found.
-    // The file holds both fields after the others, and only where they are not empty.
     #[serde(skip)]
     pub style: String,
     /// Databases of further styles over the same skeleton, sorted by style. They have no further styles themselves.
@@ -86,6 +90,11 @@ impl MotionDb {
     /// Whether the set distinguishes styles.
     pub fn has_styles(&self) -> bool {
         !self.style.is_empty() || !self.further_styles.is_empty()
+    }
+
+    /// Whether a style has joints beside the 22 roles.
+    pub fn has_extra_joints(&self) -> bool {
+        self.styles().any(|db| !db.extra.is_empty())
     }
 
     /// The idles, the best first.

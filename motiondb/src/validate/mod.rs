@@ -7,12 +7,13 @@
 //! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
 //! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
 //! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). `actions` has the invariants of
-//! actions in all tiers, `styles` those between the styles of a set. If `structure` fails, only its
-//! first fault is reported. In later tiers, all faults are. After a failed tier, later tiers are not checked. The doc
-//! of each function states the invariant.
+//! actions in all tiers, `extra_joints` those of the joints beside the 22 roles, `styles` those between the styles of a
+//! set. If `structure` fails, only its first fault is reported. In later tiers, all faults are. After a failed tier, later
+//! tiers are not checked. The doc of each function states the invariant.
 
 mod actions;
 mod blending;
+mod extra_joints;
 mod motion;
 mod structure;
 mod styles;
@@ -52,17 +53,18 @@ type CheckResult = Result<(), String>;
 type Invariant = (&'static str, fn(&MotionDb) -> CheckResult);
 
 /// First tier: lengths, indices and names, each based on those before.
-const STRUCTURE: [Invariant; 6] = [
+const STRUCTURE: [Invariant; 7] = [
     ("styles_are_unique", styles::styles_are_unique),
     ("has_examples", structure::has_examples),
     ("rows_are_complete", structure::rows_are_complete),
     ("indices_are_in_range", structure::indices_are_in_range),
     ("names_are_unique", structure::names_are_unique),
     ("actions_are_complete", actions::actions_are_complete),
+    ("extra_joints_are_complete", extra_joints::extra_joints_are_complete),
 ];
 
 /// Second tier: values, each by itself.
-const VALUES: [Invariant; 10] = [
+const VALUES: [Invariant; 11] = [
     ("styles_share_the_skeleton", styles::styles_share_the_skeleton),
     ("skeleton_is_a_body", values::skeleton_is_a_body),
     ("sources_are_finite", values::sources_are_finite),
@@ -73,6 +75,7 @@ const VALUES: [Invariant; 10] = [
     ("rotations_are_unit_and_aligned", values::rotations_are_unit_and_aligned),
     ("action_frames_are_finite", actions::action_frames_are_finite),
     ("action_rotations_are_unit_and_aligned", actions::action_rotations_are_unit_and_aligned),
+    ("extra_rotations_are_unit_and_aligned", extra_joints::extra_rotations_are_unit_and_aligned),
 ];
 
 /// Third tier: consequences of the values.

@@ -35,8 +35,9 @@ pub(crate) fn styles_are_unique(db: &MotionDb) -> CheckResult {
     ensure(nested.is_none(), || format!("style `{}` has styles itself", nested.map_or("", |nested| &nested.style)))
 }
 
-/// All styles have the same skeleton.
+/// All styles have the same skeleton, with the same extra joints.
 pub(crate) fn styles_share_the_skeleton(db: &MotionDb) -> CheckResult {
-    let other = db.further_styles.iter().find(|other| other.skeleton != db.skeleton);
+    let is_other = |other: &&MotionDb| other.skeleton != db.skeleton || other.extra.bones != db.extra.bones;
+    let other = db.further_styles.iter().find(is_other);
     ensure(other.is_none(), || format!("style `{}` has another skeleton", other.map_or("", |other| &other.style)))
 }

@@ -5,11 +5,11 @@
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
-use motiondb::body::{Foot, JOINT_COUNT, Joint, Root, Side, Skeleton};
+use motiondb::body::{ExtraJoint, Foot, JOINT_COUNT, Joint, Root, Side, Skeleton};
 use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::motion::{
-    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters,
-    PhaseMap, Rows, SourceRecord,
+    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, ExtraBone, ExtraMotion, MotionDb, MotionExample,
+    PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord,
 };
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
@@ -25,6 +25,7 @@ pub(crate) fn small_db() -> MotionDb {
     let names = ["stand", "turn_none", "turn_one"];
     let examples: Vec<MotionExample> = names.iter().zip(parameters).map(|(name, at)| example(name, at)).collect();
     let mut db = MotionDb {
+        extra: ExtraMotion::default(),
         style: String::new(),
         further_styles: Vec::new(),
         skeleton: skeleton(),
@@ -52,6 +53,20 @@ pub(crate) fn small_db() -> MotionDb {
     };
     db.actions = vec![action(&db, ActionKind::Idle, 60), action(&db, ActionKind::Start, 72)];
     (0..db.examples.len()).for_each(|index| measure(&mut db, index));
+    db
+}
+
+/// The small database with two joints of the left index finger, which curl in proportion to the phase and the frame.
+#[allow(dead_code, reason = "each test file compiles this module for itself")]
+pub(crate) fn db_with_fingers() -> MotionDb {
+    let mut db = small_db();
+    let bone = |joint: usize| ExtraBone { joint: ExtraJoint::finger(Side::Left, 1, joint), offset_m: Vec3::Y * 0.04 };
+    let curl = |step: usize| [Quat::from_rotation_x(-0.01 * step as f32); 2];
+    db.extra = ExtraMotion {
+        bones: [0, 1].map(bone).to_vec(),
+        rotations: (0..db.examples.len()).flat_map(|_| (0..PHASE_COUNT).flat_map(curl)).collect(),
+        actions: db.actions.iter().map(|action| (0..action.frames.len()).flat_map(curl).collect()).collect(),
+    };
     db
 }
 

@@ -8,7 +8,7 @@ use std::f32::consts::TAU;
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Skeleton};
-use motiondb::motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::motion::{Correspondence, ExtraMotion, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
 use motiondb::velocity_sets::velocity_hull::{self, Construction, VelocityHull};
 
 use crate::synthesis::pose::ik::reach;
@@ -43,6 +43,7 @@ const SEMI_PROCEDURAL: usize = 2;
 /// The database.
 pub(crate) fn test_db() -> MotionDb {
     let mut db = MotionDb {
+        extra: ExtraMotion::default(),
         style: String::new(),
         further_styles: Vec::new(),
         skeleton: skeleton(),

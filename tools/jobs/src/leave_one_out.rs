@@ -18,7 +18,7 @@
 use fbcrowd_sim::synthesis::blending::ExampleMix;
 use motiondb::blend_space::triangulation;
 use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
-use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Rows};
+use motiondb::motion::{ExtraMotion, MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::statistics;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -168,6 +168,7 @@ fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
     let rows = |index: &usize| index * PHASE_COUNT..(index + 1) * PHASE_COUNT;
     let rotations = |index: &usize| index * PHASE_COUNT * JOINT_COUNT..(index + 1) * PHASE_COUNT * JOINT_COUNT;
     MotionDb {
+        extra: ExtraMotion::default(),
         style: String::new(),
         further_styles: Vec::new(),
         skeleton: db.skeleton.clone(),

@@ -8,8 +8,8 @@ use glam::Vec2;
 use motiondb::blend_space::BlendSpace;
 use motiondb::body::{Root, Skeleton};
 use motiondb::motion::{
-    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters,
-    PhaseMap, Rows,
+    Action, ActionEnd, ActionFrame, ActionKind, Correspondence, ExtraMotion, MotionDb, MotionExample, PHASE_COUNT,
+    Parameters, PhaseMap, Rows,
 };
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use tiny_skia::Pixmap;
@@ -41,6 +41,7 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
     let dimension = u32::from(speeds_mps.len() > 1);
     let corners = speeds_mps.iter().map(|speed| Vec2::new(*speed, 0.0)).collect();
     MotionDb {
+        extra: ExtraMotion::default(),
         style: String::new(),
         further_styles: Vec::new(),
         skeleton: header.skeleton().clone(),

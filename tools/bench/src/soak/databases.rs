@@ -39,7 +39,8 @@ pub(crate) fn forge(bytes: &[u8], draw: &mut Draw) -> CopyOutcome {
     let mut payload = bytes[HEADER_LENGTH..].to_vec();
     let position = forged_position(payload.len(), draw);
     draw.edit_at(position).alter(&mut payload);
-    let sealed = container::seal(database_file::MAGIC, database_file::VERSION, &payload);
+    let version = container::stated_version(bytes).unwrap_or(database_file::VERSION);
+    let sealed = container::seal(database_file::MAGIC, version, &payload);
     let Ok((db, _)) = database_file::from_bytes(Path::new("forged"), &sealed) else {
         return CopyOutcome::Rejected;
     };

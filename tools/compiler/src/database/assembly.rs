@@ -2,7 +2,7 @@
 //!
 //! Cycles enter in the order of the examples; records are those of all sources. See [`MotionDb`] for units and frames.
 
-use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
+use motiondb::motion::{Correspondence, ExtraMotion, MotionDb, MotionExample, Parameters};
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
 
 use crate::action::joined_action::JoinedAction;
@@ -40,6 +40,7 @@ pub(crate) fn assemble(
     observer(CompileEvent::Stage("assembly"));
     let action_poses = actions.iter().flat_map(|action| &action.frames).map(|frame| &frame.pose);
     let mut db = MotionDb {
+        extra: ExtraMotion::default(),
         style: String::new(),
         further_styles: Vec::new(),
         skeleton: skeleton(body, cycles.iter().flat_map(|named| &named.cycle.rows).chain(action_poses)),
