@@ -89,6 +89,16 @@ fn notes() -> Vec<(Note, &'static str)> {
             Note::AddedToStyle { style: "neutral".into() },
             "no clip without a style steps, so this one is used for style `neutral`",
         ),
+        (
+            Note::JointsLeftOut { moving: 485, kept: 30 },
+            "485 moving joints of hands, feet and limbs are not used: they are no fingers, toes or twist bones by their \
+             names, or more than fit; 30 are kept",
+        ),
+        (
+            Note::JointsLeftOut { moving: 1, kept: 0 },
+            "1 moving joint of hands, feet and limbs is not used: it is no finger, toe or twist bone by its name, or \
+             does not fit",
+        ),
     ]
 }
 
@@ -333,6 +343,8 @@ const NUMBERED: [&[&str]; 3] = [
         "coincident_manners",
         "idle_of_other_style",
         "added_to_style",
+        "corners_unused",
+        "joints_left_out",
     ],
     &[
         "inhuman_size",

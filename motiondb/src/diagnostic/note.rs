@@ -121,6 +121,13 @@ pub enum Note {
         /// Number of the others.
         more: u32,
     },
+    /// Moving joints of hands, feet and limbs are neither roles nor kept beside them.
+    JointsLeftOut {
+        /// Number of these joints.
+        moving: u32,
+        /// Number of joints that are kept beside the roles.
+        kept: u32,
+    },
 }
 
 impl Note {
@@ -144,6 +151,7 @@ impl Note {
             Self::IdleOfOtherStyle { .. } => "idle_of_other_style",
             Self::AddedToStyle { .. } => "added_to_style",
             Self::CornersUnused { .. } => "corners_unused",
+            Self::JointsLeftOut { .. } => "joints_left_out",
         }
     }
 }
@@ -219,6 +227,15 @@ impl fmt::Display for Note {
                     _ => write!(out, ", nor {more} further turns"),
                 }
             }
+            Self::JointsLeftOut { moving: 1, .. } => out.write_str(
+                "1 moving joint of hands, feet and limbs is not used: it is no finger, toe or twist bone by its name, or \
+                 does not fit",
+            ),
+            Self::JointsLeftOut { moving, kept } => write!(
+                out,
+                "{moving} moving joints of hands, feet and limbs are not used: they are no fingers, toes or twist bones \
+                 by their names, or more than fit; {kept} are kept"
+            ),
             Self::LowPartsLeftOut { posture, longest_s: [first_s, last_s], total_s, more } => {
                 write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;
                 if *more > 0 {

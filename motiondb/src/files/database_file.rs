@@ -85,17 +85,19 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileErro
 
 /// The name of the first style, and the further styles.
 type Styles = (String, Vec<MotionDb>);
+/// The same as the file holds them.
+type StoredStyles<T> = (String, Vec<T>);
 
 /// The styles of a set of the 22 roles alone, and the bytes after them.
 fn decoded_plain_styles(bytes: &[u8]) -> Result<(Styles, &[u8]), String> {
-    let ((style, further), rest): ((String, Vec<(String, MotionDb)>), _) = decoded(bytes)?;
+    let ((style, further), rest): (StoredStyles<(String, MotionDb)>, _) = decoded(bytes)?;
     let further = further.into_iter().map(|(style, db)| MotionDb { style, ..db });
     Ok(((style, further.collect()), rest))
 }
 
 /// The styles of a set with extra joints, and the bytes after them.
 fn decoded_styles(bytes: &[u8]) -> Result<(Styles, &[u8]), String> {
-    let ((style, further), rest): ((String, Vec<(String, MotionDb, ExtraMotion)>), _) = decoded(bytes)?;
+    let ((style, further), rest): (StoredStyles<(String, MotionDb, ExtraMotion)>, _) = decoded(bytes)?;
     let further = further.into_iter().map(|(style, db, extra)| MotionDb { style, extra, ..db });
     Ok(((style, further.collect()), rest))
 }

@@ -15,6 +15,7 @@ use crate::action::joined_action::{in_order, joined_idles};
 use crate::cache::Cache;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
+use crate::database::extra_joints::SetExtra;
 use crate::dedup::comparison::ComparedClip;
 use crate::dedup::comparison_log::ComparisonLog;
 use crate::error::{CompileError, Rejection};
@@ -104,7 +105,7 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
 /// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
-/// 9. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
+/// 9. Assemble parameters, blend space, velocity sets, rows, extra joints and correspondence ([`crate::database`]).
 /// 10. Join the styles over one skeleton; check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
@@ -149,13 +150,14 @@ fn database(
     observer(CompileEvent::Stage("selection"));
     let TargetedClips { clips, body } = set;
     analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
+    let extra = SetExtra::of(&clips, &analyzed, &body);
     let log = cache.map_or_else(ComparisonLog::default, |cache| cache.comparisons(&clips));
     let parts = by_style(clips, compared, analyzed).into_iter();
     let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body, &log)).collect();
     cache.into_iter().for_each(|cache| cache.close(&log));
     lend_idle(&mut parts);
     let databases: Result<Vec<MotionDb>, CompileError> =
-        parts.into_iter().map(|part| style_database(part, &body, options, observer)).collect();
+        parts.into_iter().map(|part| style_database(part, &body, &extra, options, observer)).collect();
     let db = joined(databases?).ok_or(CompileError::NoClips)?;
     observer(CompileEvent::Stage("validation"));
     valid(db)
@@ -165,6 +167,7 @@ fn database(
 fn style_database(
     StylePart { style, clips, analyzed, .. }: StylePart,
     body: &HumanBody,
+    set_extra: &SetExtra,
     options: &Options,
     observer: &Observer,
 ) -> Result<MotionDb, CompileError> {
@@ -176,7 +179,8 @@ fn style_database(
     observer(CompileEvent::Stage("transitions"));
     let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
     note_unused_corners(&mut selected.sources, &adding, &actions);
-    Ok(MotionDb { style, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
+    let extra = set_extra.motion(&selected.cycles, &actions, &clips);
+    Ok(MotionDb { style, extra, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
 }
 
 /// Checks that the system gives the memory that the analysis of some clips needs.

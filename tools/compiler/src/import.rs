@@ -14,7 +14,7 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Warning};
+use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
@@ -31,6 +31,7 @@ use crate::read::source_motion::SourceMotion;
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
+use crate::rig::extra_joints::extra_joints;
 use crate::rig::{self, roles::Roles};
 
 /// Number of bytes that are read of a file at once.
@@ -234,20 +235,27 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
 }
 
-/// The joints that have roles, in all frames, and their roles. Memory: the poses of all joints never exist at once.
+/// The joints that have roles and the extra joints, in all frames, and their roles. Memory: the poses of all joints never exist at once.
 fn clip_with_roles(mut motion: SourceMotion, settings: &ClipSettings) -> Result<(SourceClip, Roles), RejectionReason> {
     let known = settings.joint_map(&motion.head)?;
     rig::check_size(&motion.head)?;
     let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
     let mut roles = rig::find_roles(&sample, &known)?;
+    let extra = extra_joints(&sample, &roles);
+    roles.extra = extra.kept;
+    let left_out = Note::JointsLeftOut { moving: extra.left_out as u32, kept: roles.extra.len() as u32 };
+    let left_out = (extra.left_out > 0).then_some(Diagnostic::Note(left_out));
     let kept = roles.source_joints();
     roles.renumber(&kept);
-    if sample.frame_count() == motion.frame_count() {
+    let mut clip = if sample.frame_count() == motion.frame_count() {
         sample.keep_joints(&kept);
-        return Ok((sample, roles));
-    }
-    drop(sample);
-    Ok((motion.into_clip(&kept)?, roles))
+        sample
+    } else {
+        drop(sample);
+        motion.into_clip(&kept)?
+    };
+    clip.diagnostics.extend(left_out);
+    Ok((clip, roles))
 }
 
 /// Removes poses that are not part of the motion, unless a manifest selects the frames, and returns the whole-clip

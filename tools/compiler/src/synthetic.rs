@@ -128,7 +128,7 @@ pub(crate) fn steps(
         rotations[0] = DQuat::from_rotation_z(facing_rad);
         rotations[Joint::LeftUpperArm.index()] = DQuat::from_rotation_x(-FRAC_PI_2 + 0.1);
         rotations[Joint::RightUpperArm.index()] = DQuat::from_rotation_x(FRAC_PI_2 - 0.1);
-        let mut pose = HumanPose { pelvis_m: root_m.extend(0.8), rotations };
+        let mut pose = HumanPose { pelvis_m: root_m.extend(0.8), rotations, extra: Box::default() };
         for (side, mids_s) in mid_stances_s.iter().enumerate() {
             let begun = mids_s.partition_point(|mid_s| *mid_s <= time_s).max(1);
             let (before_s, after_s) = (mids_s[begun - 1], mids_s[begun.min(mids_s.len() - 1)]);
@@ -185,6 +185,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         first_frame: 0,
         frame_rate_hz,
         body,
+        extra: Vec::new(),
         frames,
         in_place_mps: None,
         low_parts: Vec::new(),
@@ -206,7 +207,8 @@ fn pose(walk: &SyntheticWalk, body: &HumanBody, arc: &RootArc, time_s: f64) -> H
     rotations[0] = DQuat::from_rotation_z(facing_rad + 0.05 * libm::sin(TAU * cycles));
     rotations[Joint::LeftUpperArm.index()] = DQuat::from_rotation_x(-FRAC_PI_2 + 0.1);
     rotations[Joint::RightUpperArm.index()] = DQuat::from_rotation_x(FRAC_PI_2 - 0.1);
-    let mut pose = HumanPose { pelvis_m: (root_m + ground_rotation(facing_rad) * sway).extend(height_m), rotations };
+    let pelvis_m = (root_m + ground_rotation(facing_rad) * sway).extend(height_m);
+    let mut pose = HumanPose { pelvis_m, rotations, extra: Box::default() };
     for (side, first_mid_stance) in [(0, walk.left_share), (1, 0.0)] {
         place_foot(&mut pose, walk, body, arc, side, cycles - first_mid_stance);
     }

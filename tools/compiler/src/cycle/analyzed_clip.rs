@@ -116,6 +116,11 @@ impl AnalyzedClip {
         searched_frames(self.grounded.frame_count(), self.grounded.loop_frames())
     }
 
+    /// Whether the clip may give an example or a transition.
+    pub(crate) fn gives_motion(&self) -> bool {
+        !self.windows.is_empty() || !self.movements.is_empty()
+    }
+
     /// Frees the poses that no standing cycle, no idle and no transition needs.
     pub(crate) fn keep_needed(mut self) -> Self {
         let stands = self.windows.iter().filter_map(SteadyCycle::standing);

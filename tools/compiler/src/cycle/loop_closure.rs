@@ -31,6 +31,8 @@ struct PoseGap {
     pelvis_m: DVec3,
     /// Rotation of each joint against its parent, as a rotation vector, rad.
     rotations: [DVec3; JOINT_COUNT],
+    /// The same of the extra joints.
+    extra: Box<[DVec3]>,
 }
 
 /// Difference of one foot at the end of a stride from its beginning.
@@ -61,7 +63,8 @@ impl StrideGap {
         let (from, to) = (first.forward_kinematics(body), last.forward_kinematics(body));
         let rows: Vec<[f64; 2]> = (0..=3 * PHASE_COUNT).map(|row| contacts(along(row))).collect();
         let rotations = std::array::from_fn(|joint| rotation_between(first.rotations[joint], last.rotations[joint]));
-        let pose = PoseGap { pelvis_m: last.pelvis_m - first.pelvis_m, rotations };
+        let extra = first.extra.iter().zip(&last.extra).map(|(from, to)| rotation_between(*from, *to)).collect();
+        let pose = PoseGap { pelvis_m: last.pelvis_m - first.pelvis_m, rotations, extra };
         let closed = pose.closed(first, 0.0).forward_kinematics(body);
         let feet = [0, 1].map(|side| {
             let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
@@ -95,7 +98,8 @@ impl PoseGap {
     fn closed(&self, pose: &HumanPose, along: f64) -> HumanPose {
         let mut closed = pose.clone();
         closed.pelvis_m -= self.pelvis_m * (along - 0.5);
-        for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotations) {
+        let roles = closed.rotations.iter_mut().zip(&self.rotations);
+        for (rotation, gap) in roles.chain(closed.extra.iter_mut().zip(&self.extra)) {
             *rotation = DQuat::from_scaled_axis(*gap * (0.5 - along)) * *rotation;
         }
         closed

@@ -13,7 +13,8 @@ use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// The skeleton of a body; its joint limits hold all poses.
 pub(crate) fn skeleton<'a>(body: &HumanBody, poses: impl Iterator<Item = &'a HumanPose>) -> Skeleton {
-    let rest = HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::IDENTITY; JOINT_COUNT] }.forward_kinematics(body);
+    let rotations = [DQuat::IDENTITY; JOINT_COUNT];
+    let rest = HumanPose { pelvis_m: DVec3::ZERO, rotations, extra: Box::default() }.forward_kinematics(body);
     let sole_m = lowest_sole_m(&rest, body, 0).min(lowest_sole_m(&rest, body, 1));
     let crown_m = rest.positions_m[Joint::Head.index()].z + body.segment_ends_m[Joint::Head.index()].z;
     let stature_m = crown_m - sole_m;

@@ -46,9 +46,7 @@ impl GroundedPoses<'_> {
     pub(crate) fn pose(&self, frame: usize) -> HumanPose {
         match self {
             Self::Own(poses) => poses[frame].clone(),
-            Self::Moved { poses, pelvis_m } => {
-                HumanPose { pelvis_m: pelvis_m[frame], rotations: poses[frame].rotations }
-            }
+            Self::Moved { poses, pelvis_m } => HumanPose { pelvis_m: pelvis_m[frame], ..poses[frame].clone() },
             Self::Parts(kept) => kept.pose(frame),
         }
     }

@@ -74,6 +74,8 @@ pub(crate) struct LoopSeam {
     height_gap_m: f64,
     /// Rotations from the last pose's joints back to the first's, as rotation vectors, rad.
     rotation_gaps: [DVec3; JOINT_COUNT],
+    /// The same of the extra joints.
+    extra_gaps: Box<[DVec3]>,
 }
 
 impl LoopSeam {
@@ -85,15 +87,18 @@ impl LoopSeam {
             let closing = if joint == 0 { turn * first.rotations[0] } else { first.rotations[joint] };
             rotation_vector(closing * last.rotations[joint].inverse())
         });
+        let extra = first.extra.iter().zip(&last.extra);
+        let extra_gaps = extra.map(|(first, last)| rotation_vector(*first * last.inverse())).collect();
         let travelled_m = (last.pelvis_m - first.pelvis_m).with_z(0.0);
         let height_gap_m = first.pelvis_m.z - last.pelvis_m.z;
-        Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps }
+        Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps, extra_gaps }
     }
 
     /// Adds its part of the gap to a pose of the round: none at the first pose, all at the last.
     fn close(&self, pose: &mut HumanPose, share: f64) {
         pose.pelvis_m.z += self.height_gap_m * share;
-        for (rotation, gap) in pose.rotations.iter_mut().zip(&self.rotation_gaps) {
+        let roles = pose.rotations.iter_mut().zip(&self.rotation_gaps);
+        for (rotation, gap) in roles.chain(pose.extra.iter_mut().zip(&self.extra_gaps)) {
             *rotation = DQuat::from_scaled_axis(*gap * share) * *rotation;
         }
     }

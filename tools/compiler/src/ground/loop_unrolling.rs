@@ -68,9 +68,10 @@ pub(crate) fn repeated<'a>(mut clip: GroundedClip<'a>, body: &HumanBody, round: 
 
 /// The pose after two successive ones at constant velocity.
 fn next_pose(before: &HumanPose, last: &HumanPose) -> HumanPose {
-    let rotations =
-        std::array::from_fn(|joint| last.rotations[joint] * before.rotations[joint].inverse() * last.rotations[joint]);
-    HumanPose { pelvis_m: 2.0 * last.pelvis_m - before.pelvis_m, rotations }
+    let next = |(before, last): (&DQuat, &DQuat)| *last * before.inverse() * *last;
+    let rotations = std::array::from_fn(|joint| next((&before.rotations[joint], &last.rotations[joint])));
+    let extra = before.extra.iter().zip(&last.extra).map(next).collect();
+    HumanPose { pelvis_m: 2.0 * last.pelvis_m - before.pelvis_m, rotations, extra }
 }
 
 /// Positions of the joints relative to hips and facing, m.

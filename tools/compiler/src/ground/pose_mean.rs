@@ -52,7 +52,9 @@ fn mean_with_feet(
     let pelvis_m = parts.iter().map(|(weight, pose)| pose.pelvis_m * *weight).sum();
     let rotations =
         std::array::from_fn(|joint| mean_rotation(parts.iter().map(|(weight, pose)| (*weight, pose.rotations[joint]))));
-    let mut pose = HumanPose { pelvis_m, rotations };
+    let joints_beside = parts.first().map_or(0, |(_, pose)| pose.extra.len());
+    let extra = |joint: usize| mean_rotation(parts.iter().map(|(weight, pose)| (*weight, pose.extra[joint])));
+    let mut pose = HumanPose { pelvis_m, rotations, extra: (0..joints_beside).map(extra).collect() };
     let joints: Vec<(f64, HumanJoints)> =
         parts.iter().map(|(weight, pose)| (*weight, pose.forward_kinematics(body))).collect();
     for side in 0..2 {

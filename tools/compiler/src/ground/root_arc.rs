@@ -128,7 +128,7 @@ pub(crate) fn relative_to((position_m, facing_rad): (DVec2, f64), pose: &HumanPo
     let ground_m = ground_rotation(-facing_rad) * (pose.pelvis_m.truncate() - position_m);
     let mut rotations = pose.rotations;
     rotations[0] = DQuat::from_rotation_z(-facing_rad) * rotations[0];
-    HumanPose { pelvis_m: ground_m.extend(pose.pelvis_m.z), rotations }
+    HumanPose { pelvis_m: ground_m.extend(pose.pelvis_m.z), rotations, extra: pose.extra.clone() }
 }
 
 /// J(a): the mean of all rotations from 0 to a.

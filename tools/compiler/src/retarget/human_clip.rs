@@ -11,6 +11,7 @@ use motiondb::motion::{ActionKind, SourceRecord};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
+use crate::retarget::extra_tracks::ClipExtra;
 use crate::retarget::posture::LowPart;
 use crate::rig::rig_head::RigHead;
 
@@ -27,6 +28,8 @@ pub struct HumanClip {
     pub frame_rate_hz: f64,
     /// Bones of the performer.
     pub body: HumanBody,
+    /// Joints beside the 22 roles, in order.
+    pub extra: Vec<ClipExtra>,
     /// One pose for each frame; none where `stored` stands for them.
     #[serde(skip)]
     pub frames: Vec<HumanPose>,
@@ -104,6 +107,8 @@ pub struct HumanPose {
     pub pelvis_m: DVec3,
     /// Rotation of each joint in its parent's frame; of the pelvis in the world.
     pub rotations: [DQuat; JOINT_COUNT],
+    /// Rotation of each of the clip's extra joints in its parent's frame; of a mirrored pose, of each mirrored joint.
+    pub extra: Box<[DQuat]>,
 }
 
 /// World positions and orientations of all joints in one frame.
@@ -152,11 +157,7 @@ impl HumanClip {
 
     /// Bits of the frame rate and of all poses.
     fn values(&self) -> impl Iterator<Item = u64> {
-        let of_pose = |pose: &HumanPose| {
-            let turns = pose.rotations.map(|turn| turn.to_array());
-            pose.pelvis_m.to_array().into_iter().chain(turns.into_iter().flatten())
-        };
-        std::iter::once(self.frame_rate_hz).chain(self.frames.iter().flat_map(of_pose)).map(f64::to_bits)
+        std::iter::once(self.frame_rate_hz).chain(self.frames.iter().flat_map(HumanPose::values)).map(f64::to_bits)
     }
 }
 
@@ -184,7 +185,13 @@ impl HumanBody {
 impl HumanPose {
     /// The pose of a body that is `scale` times as large.
     pub fn scaled(&self, scale: f64) -> Self {
-        Self { pelvis_m: self.pelvis_m * scale, rotations: self.rotations }
+        Self { pelvis_m: self.pelvis_m * scale, ..self.clone() }
+    }
+
+    /// Position of the pelvis, then all rotations.
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let turns = self.rotations.iter().chain(&self.extra).flat_map(|turn| turn.to_array());
+        self.pelvis_m.to_array().into_iter().chain(turns)
     }
 
     /// World positions and orientations of all joints.

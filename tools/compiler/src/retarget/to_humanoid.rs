@@ -13,6 +13,7 @@ use crate::error::RejectionReason;
 use crate::read::source_clip::{SourceClip, with_room};
 use crate::retarget::anchors::anchors;
 use crate::retarget::calibration::calibration;
+use crate::retarget::extra_tracks::ExtraTracks;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
@@ -52,6 +53,8 @@ pub(crate) fn to_human(
     let soles = soles(&calibrated, leg_m);
     let ground_m = soles.ground_m;
     let body = body(&calibrated, offsets_m, soles, leg_m);
+    let extra_tracks = ExtraTracks::of(&calibrated);
+    let extra_offsets_m = extra_tracks.offsets_m(&calibrated);
     let rig_head = RigHead::of(&clip, roles, leg_m, constants[Joint::Head.index()]);
     let mut frames = with_room(clip.frame_count())?;
     // From the last frame to the first: a list is cut at its end.
@@ -59,7 +62,10 @@ pub(crate) fn to_human(
         let first = clip.frame_count().saturating_sub(FREED_FRAMES);
         let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward, upright: &upright };
         let calibrated = CalibratedTracks { tracks, constants: &constants };
-        frames.extend((first..clip.frame_count()).rev().map(|frame| pose(&calibrated, &offsets_m, frame, ground_m)));
+        frames.extend((first..clip.frame_count()).rev().map(|frame| HumanPose {
+            extra: extra_tracks.rotations(&calibrated, frame),
+            ..pose(&calibrated, &offsets_m, frame, ground_m)
+        }));
         clip.free_from(first);
     }
     frames.reverse();
@@ -69,6 +75,7 @@ pub(crate) fn to_human(
         first_frame: clip.first_frame,
         frame_rate_hz: clip.frame_rate_hz,
         body,
+        extra: extra_tracks.clip_extra(&extra_offsets_m, frames.iter().map(|pose: &HumanPose| &*pose.extra)),
         frames,
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
         low_parts,
@@ -103,7 +110,7 @@ fn mean_offsets(calibrated: &CalibratedTracks) -> [DVec3; JOINT_COUNT] {
     sums_m.map(|sum_m| sum_m / frames as f64)
 }
 
-/// The pose of a frame over ground at `ground_m`, which lies at z = 0 afterwards. Bones of joints with one child are
+/// The pose of a frame, without extra joints, over ground at `ground_m`, which lies at z = 0 afterwards. Bones of joints with one child are
 /// aimed at their child's position in the source, parents first.
 fn pose(calibrated: &CalibratedTracks, offsets_m: &[DVec3; JOINT_COUNT], frame: usize, ground_m: f64) -> HumanPose {
     let targets_m = Joint::ALL.map(|joint| calibrated.tracks.position_m(joint, frame));
@@ -130,7 +137,7 @@ fn pose(calibrated: &CalibratedTracks, offsets_m: &[DVec3; JOINT_COUNT], frame: 
     };
     let pelvis_m = targets_m[Joint::Pelvis.index()];
     let pelvis_m = pelvis_m.with_z(pelvis_m.z - ground_m);
-    HumanPose { pelvis_m, rotations: Joint::ALL.map(local) }
+    HumanPose { pelvis_m, rotations: Joint::ALL.map(local), extra: Box::default() }
 }
 
 /// Index of the child of a joint that has exactly one.

@@ -24,6 +24,7 @@ pub(crate) fn assigned_roles(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) 
         ends: [None; JOINT_COUNT],
         soles: [None; 2],
         heels: [None; 2],
+        extra: Vec::new(),
         are_names_mirrored: false,
     };
     assign_limbs(rig, &mut roles, legs, arms);

@@ -3,6 +3,7 @@
 use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::read::source_clip::KeptJoints;
+use crate::rig::extra_joints::SourceExtra;
 
 /// Source joint of each role; none where the role is open.
 pub type JointMap = [Option<usize>; JOINT_COUNT];
@@ -27,6 +28,8 @@ pub struct Roles {
     pub soles: [Option<[usize; 3]>; 2],
     /// `[left, right]`: joint of the heel, where the clip has one.
     pub heels: [Option<usize>; 2],
+    /// The joints beside the 22 roles, in order; none before they are searched.
+    pub extra: Vec<SourceExtra>,
     /// Whether names call left what stands on the right. The file is mirrored; roles are as the body stands.
     pub are_names_mirrored: bool,
 }
@@ -39,9 +42,11 @@ impl Roles {
 
     /// The source joints that roles name. Only joints that rotate as a canonical joint need an orientation.
     pub(crate) fn source_joints(&self) -> KeptJoints {
-        let mut oriented: Vec<usize> = self.joints.iter().flatten().copied().collect();
+        let extra = self.extra.iter().map(|extra| extra.source);
+        let mut oriented: Vec<usize> = self.joints.iter().flatten().copied().chain(extra).collect();
         let of_feet = self.soles.iter().flatten().flatten().chain(self.heels.iter().flatten());
-        let points = self.ends.iter().flatten().chain(of_feet).copied();
+        let of_extra = self.extra.iter().filter_map(|extra| extra.end);
+        let points = self.ends.iter().flatten().chain(of_feet).copied().chain(of_extra);
         let mut points: Vec<usize> = points.filter(|joint| !oriented.contains(joint)).collect();
         for joints in [&mut oriented, &mut points] {
             joints.sort_unstable();
@@ -53,7 +58,8 @@ impl Roles {
     /// The same roles in a clip that has only `kept`, which are those of [`Roles::source_joints`].
     pub(crate) fn renumber(&mut self, kept: &KeptJoints) {
         let of_feet = self.soles.iter_mut().flatten().flatten().chain(self.heels.iter_mut().flatten());
-        for joint in self.joints.iter_mut().chain(&mut self.ends).flatten().chain(of_feet) {
+        let of_extra = self.extra.iter_mut().flat_map(|extra| [Some(&mut extra.source), extra.end.as_mut()]).flatten();
+        for joint in self.joints.iter_mut().chain(&mut self.ends).flatten().chain(of_feet).chain(of_extra) {
             *joint = kept.iter().take_while(|kept| kept != joint).count();
         }
     }
@@ -64,5 +70,7 @@ impl Roles {
         (self.joints, self.ends) = (mirrored(&self.joints), mirrored(&self.ends));
         self.soles.swap(0, 1);
         self.heels.swap(0, 1);
+        self.extra.iter_mut().for_each(|extra| extra.joint = extra.joint.mirrored());
+        self.extra.sort();
     }
 }

@@ -84,14 +84,19 @@ fn mirrored_cycle(cycle: &GaitCycle) -> GaitCycle {
     }
 }
 
-/// The pose in the mirror y = 0 of its frame.
+/// The pose in the mirror y = 0 of its frame. The list of extra joints keeps its order: each is then the mirrored joint.
 pub(crate) fn mirrored_pose(pose: &HumanPose) -> HumanPose {
     let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
     for joint in Joint::ALL {
-        let DQuat { x, y, z, w } = pose.rotations[joint.index()];
-        rotations[joint.mirrored().index()] = DQuat::from_xyzw(-x, y, -z, w);
+        rotations[joint.mirrored().index()] = mirrored_rotation(pose.rotations[joint.index()]);
     }
-    HumanPose { pelvis_m: pose.pelvis_m * DVec3::new(1.0, -1.0, 1.0), rotations }
+    let extra = pose.extra.iter().copied().map(mirrored_rotation).collect();
+    HumanPose { pelvis_m: pose.pelvis_m * DVec3::new(1.0, -1.0, 1.0), rotations, extra }
+}
+
+/// The rotation in the mirror y = 0 of its frame.
+pub(crate) fn mirrored_rotation(DQuat { x, y, z, w }: DQuat) -> DQuat {
+    DQuat::from_xyzw(-x, y, -z, w)
 }
 
 #[cfg(test)]
