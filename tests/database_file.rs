@@ -7,9 +7,11 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use glam::{Quat, Vec3};
+use motiondb::body::{ExtraJoint, Side};
 use motiondb::files::container::{self, HEADER_LENGTH};
 use motiondb::files::database_file;
-use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::motion::{ExtraBone, ExtraMotion, MotionDb, PHASE_COUNT};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::validate;
 use support::{check_schema, compile, fbcrowd, folder, marine_clips, repository, scenario, text};
@@ -56,6 +58,41 @@ fn rewrite_the_golden_file_of_version_3() {
     let database = compile(&clips, &folder("golden"));
     fs::copy(&database, golden("fbdb")).unwrap();
     fs::write(golden("txt"), figures(&database_file::load(&database).unwrap().0)).unwrap();
+}
+
+/// The golden database with the joints of a little finger, which curl all along.
+fn with_little_finger() -> MotionDb {
+    let (mut db, _) = database_file::load(&golden("fbdb")).unwrap();
+    let bones: Vec<ExtraBone> = (0..3)
+        .map(|joint| ExtraBone { joint: ExtraJoint::finger(Side::Right, 4, joint), offset_m: Vec3::NEG_Y * 0.03 })
+        .collect();
+    let curl = |step: usize| [Quat::from_rotation_x(0.5 + 0.002 * step as f32); 3];
+    db.extra = ExtraMotion {
+        rotations: (0..db.examples.len()).flat_map(|_| (0..PHASE_COUNT).flat_map(curl)).collect(),
+        actions: db.actions.iter().map(|action| (0..action.frames.len()).flat_map(|_| curl(32)).collect()).collect(),
+        bones,
+    };
+    db
+}
+
+#[test]
+fn joints_beside_the_roles_are_listed() {
+    let path = folder("little_finger").join("little_finger.fbdb");
+    database_file::write(&path, &with_little_finger()).unwrap();
+    fbcrowd(&["validate", text(&path)]).expect_code(0);
+    let report = fbcrowd(&["inspect", text(&path), "--json"]).expect_code(0).json();
+    check_schema("inspect", &report);
+    let joints = report["extra_joints"].as_array().unwrap();
+    assert_eq!(joints.len(), 3);
+    assert_eq!([&joints[0]["joint"], &joints[0]["parent"]], ["right_little_1", "right_hand"]);
+    assert_eq!([&joints[2]["joint"], &joints[2]["parent"]], ["right_little_3", "right_little_2"]);
+    let mean_rad = joints[1]["mean_rad"].as_f64().unwrap();
+    assert!((mean_rad - 0.563).abs() < 0.002, "{mean_rad} rad");
+    let listed = fbcrowd(&["inspect", text(&path)]).expect_code(0).stdout;
+    assert!(listed.contains("right_little_3") && listed.contains("joints beside the 22 roles"), "{listed}");
+    assert!(
+        fbcrowd(&["inspect", text(&golden("fbdb")), "--json"]).json()["extra_joints"].as_array().unwrap().is_empty()
+    );
 }
 
 #[test]

@@ -17,6 +17,7 @@ use crate::report::compile_report::UnusedClip;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::json_diagnostic::JsonDiagnostic;
 use crate::report::motion::action_report::{ActionReport, action_reports};
+use crate::report::motion::extra_joint_report::{ExtraJointReport, extra_joint_reports};
 use crate::report::motion::style_report::StyleReport;
 
 /// Clips without a database.
@@ -104,6 +105,8 @@ pub(crate) struct DatabaseReport {
     pub(crate) examples: Vec<InspectedExample>,
     /// Idles, the best first, and transitions.
     pub(crate) actions: Vec<ActionReport>,
+    /// Joints beside the 22 roles: of fingers and toes, and twist bones; empty where no clip has them.
+    pub(crate) extra_joints: Vec<ExtraJointReport>,
     /// Clips that the examples come from.
     sources: Vec<InspectedClip>,
     /// Velocities that the examples allow.
@@ -184,6 +187,7 @@ impl DatabaseReport {
             style: db.style.clone(),
             examples: db.examples.iter().map(|example| InspectedExample::new(example, &db.sources)).collect(),
             actions: action_reports(db),
+            extra_joints: extra_joint_reports(db),
             sources: db.sources.iter().map(|source| InspectedClip::new(source, None)).collect(),
             velocity_hull: db.velocity_hull.clone(),
             blend_space: BlendSpaceReport {

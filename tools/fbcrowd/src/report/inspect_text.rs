@@ -9,7 +9,7 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BlendSpaceReport, Correspondence, DatabaseReport, InspectedExample};
-use crate::report::motion::{action_report, style_report};
+use crate::report::motion::{action_report, extra_joint_report, style_report};
 use crate::report::plain_text::{one_line, title, unsigned_zero};
 use crate::report::{compile_text, leave_one_out_text};
 
@@ -23,6 +23,7 @@ pub(crate) fn database_text(db: &MotionDb, report: &DatabaseReport) -> String {
             "findings about actions",
             compile_text::grouped(action_report::findings(&report.actions)),
         ),
+        extra_joint_report::text(&report.extra_joints),
         sets_text(&report.velocity_hull),
         blend_space_text(&report.blend_space),
         correspondence_text(report.correspondence.as_ref()),
