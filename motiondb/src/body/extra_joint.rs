@@ -4,7 +4,7 @@
 //! They are fingers, twist bones and toes, each by a name of its own. A set keeps those that its clips have, at most
 //! [`EXTRA_JOINTS_MAX`].
 //!
-//! Rest pose, as that of the roles ([`crate::body::skeleton`]): fingers and thumbs point straight along the hand, palms
+//! Rest pose, as that of the roles ([`Skeleton`](crate::body::Skeleton)): fingers and thumbs point straight along the hand, palms
 //! down, so that a finger curls about x; toes point forward; a twist bone is turned as its limb. Finger joints are
 //! relative to the palm, that is to the hand.
 

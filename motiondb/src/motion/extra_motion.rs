@@ -8,7 +8,7 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::body::extra_joint::ExtraJoint;
-use crate::motion::motion_db::PHASE_COUNT;
+use crate::motion::phase_map::PHASE_COUNT;
 
 /// An extra joint of a set, and its bone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -16,11 +16,9 @@ use crate::diagnostic::Diagnostic;
 use crate::motion::action::{Action, ActionKind};
 use crate::motion::extra_motion::ExtraMotion;
 use crate::motion::parameters::Parameters;
+pub use crate::motion::phase_map::PHASE_COUNT;
 use crate::motion::phase_map::PhaseMap;
 use crate::velocity_sets::velocity_hull::VelocityHull;
-
-/// Number of uniform phases at which every cycle is stored.
-pub const PHASE_COUNT: usize = 64;
 
 /// A motion database: the target body, its examples, and what follows from them.
 ///

@@ -14,6 +14,8 @@ use std::f32::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
+/// Number of uniform phases at which every cycle is stored.
+pub const PHASE_COUNT: usize = 64;
 /// Greatest |h − ½| that is accepted: the phase rate then stays within 1/(1 ± 0.63) of its mean. Real clips: 0.1.
 pub(crate) const MAX_ASYMMETRY: f32 = 0.2;
 

@@ -15,10 +15,10 @@ use crate::action::joined_action::{in_order, joined_idles};
 use crate::cache::Cache;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
-use crate::database::extra_joints::SetExtra;
 use crate::dedup::comparison::ComparedClip;
 use crate::dedup::comparison_log::ComparisonLog;
 use crate::error::{CompileError, Rejection};
+use crate::extra_joints::set_extra::SetExtra;
 use crate::ground::head_bends::head_bends;
 use crate::ground::target_body::target_body;
 use crate::input::clip_set::{self, ClipSet};
@@ -105,7 +105,8 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
 /// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
-/// 9. Assemble parameters, blend space, velocity sets, rows, extra joints and correspondence ([`crate::database`]).
+/// 9. Assemble parameters, blend space, velocity sets, rows, extra joints ([`crate::extra_joints`]) and correspondence
+///    ([`crate::database`]).
 /// 10. Join the styles over one skeleton; check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use crate::checks::lengthwise_path::lengthwise_path;
 use crate::checks::{level_ground, plausibility, pose_jumps};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
+use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
 use crate::input::clip_settings::ClipSettings;
 use crate::read::bvh;
@@ -31,7 +32,6 @@ use crate::read::source_motion::SourceMotion;
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
-use crate::rig::extra_joints::extra_joints;
 use crate::rig::{self, roles::Roles};
 
 /// Number of bytes that are read of a file at once.
@@ -235,7 +235,8 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
 }
 
-/// The joints that have roles and the extra joints, in all frames, and their roles. Memory: the poses of all joints never exist at once.
+/// The joints that have roles and the extra joints, in all frames, and their roles. Memory: the poses of all joints never
+/// exist at once.
 fn clip_with_roles(mut motion: SourceMotion, settings: &ClipSettings) -> Result<(SourceClip, Roles), RejectionReason> {
     let known = settings.joint_map(&motion.head)?;
     rig::check_size(&motion.head)?;

@@ -31,6 +31,7 @@
 //! # Chapters
 //! [`mod@compile`] lists the stages, one line each. In their order: [`input`] → [`read`] → [`rig`] → [`retarget`] with
 //! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`], `action` → [`database`].
+//! [`extra_joints`] are carried along: fingers, toes and twist bones.
 //!
 //! [`cache`] keeps results of import, analysis and comparison for the next compilation.
 //!
@@ -50,6 +51,7 @@ pub mod cycle;
 pub mod database;
 pub mod dedup;
 pub mod error;
+pub mod extra_joints;
 mod frame_runs;
 pub mod gait;
 pub mod ground;

@@ -4,13 +4,12 @@
 //! [`motiondb::motion::MotionDb`].
 //!
 //! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`,
-//! `rows`, `actions`, and `extra_joints` (the joints beside the 22 roles).
+//! `rows`, `actions`.
 
 pub(crate) mod actions;
 pub(crate) mod assembly;
 pub(crate) mod coincident_examples;
 pub(crate) mod example;
-pub(crate) mod extra_joints;
 pub(crate) mod rows;
 pub(crate) mod segment_radii;
 pub(crate) mod skeleton;

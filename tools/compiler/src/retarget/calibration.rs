@@ -47,7 +47,7 @@ struct MatchedDirection {
 }
 
 /// Columns: the first direction, the second one made perpendicular to it, and their cross product.
-pub(super) fn basis(first: DVec3, second: DVec3) -> DMat3 {
+pub(crate) fn basis(first: DVec3, second: DVec3) -> DMat3 {
     let across = second.reject_from_normalized(first);
     let second = across.try_normalize().unwrap_or_else(|| first.any_orthonormal_vector());
     DMat3::from_cols(first, second, first.cross(second))

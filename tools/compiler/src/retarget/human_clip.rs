@@ -11,7 +11,7 @@ use motiondb::motion::{ActionKind, SourceRecord};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use crate::retarget::extra_tracks::ClipExtra;
+use crate::extra_joints::clip_extra::ClipExtra;
 use crate::retarget::posture::LowPart;
 use crate::rig::rig_head::RigHead;
 

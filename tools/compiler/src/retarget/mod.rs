@@ -4,12 +4,11 @@
 //! (metres, z up, soles at z = 0); the mean speed, turn rate and side speed of the clip.
 //!
 //! Read `stated_facing`, `foot_passings` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters`
-//! (whole-clip parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration`, `extra_tracks`
-//! (fingers, toes, twist bones) and `soles`; last `to_humanoid`, which makes the `human_clip`.
+//! (whole-clip parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last
+//! `to_humanoid`, which makes the `human_clip`, with its [`crate::extra_joints`].
 
 pub(crate) mod anchors;
 pub(crate) mod calibration;
-pub(crate) mod extra_tracks;
 pub(crate) mod facing_frame;
 pub(crate) mod foot_passings;
 pub(crate) mod human_clip;
@@ -23,7 +22,6 @@ pub(crate) mod treadmill_speed;
 pub(crate) mod trim_t_poses;
 pub mod units;
 
-pub use extra_tracks::ClipExtra;
 pub use human_clip::{Choices, HumanBody, HumanClip, HumanJoints, HumanPose};
 pub use posture::LowPart;
 pub use source_parameters::{SourceParameters, source_parameters};

@@ -10,10 +10,10 @@ use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::motion::SourceRecord;
 
 use crate::error::RejectionReason;
+use crate::extra_joints::extra_tracks::ExtraTracks;
 use crate::read::source_clip::{SourceClip, with_room};
 use crate::retarget::anchors::anchors;
 use crate::retarget::calibration::calibration;
-use crate::retarget::extra_tracks::ExtraTracks;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};

@@ -126,7 +126,7 @@ fn glued_side(word: &str) -> Option<Side> {
 }
 
 /// Words of letters, in lower case. A capital begins a word; a run of capitals is one word up to its last capital.
-pub(super) fn words(name: &str) -> Vec<String> {
+pub(crate) fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
     for (index, &letter) in letters.iter().enumerate() {

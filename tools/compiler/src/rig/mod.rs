@@ -4,12 +4,9 @@
 //!
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
 //! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
-//! characters), `surplus_legs` (bodies with more than two legs), `extra_joints` with `extra_names` (fingers, toes, twist
-//! bones) and `rig_head` (what the clips of one rig share).
+//! characters), `surplus_legs` (bodies with more than two legs) and `rig_head` (what the clips of one rig share).
 
 mod body_plan;
-pub(crate) mod extra_joints;
-mod extra_names;
 pub(crate) mod joint_names;
 mod limb;
 pub(crate) mod rig_head;
@@ -25,8 +22,7 @@ use glam::DVec3;
 use crate::error::RejectionReason;
 use crate::read::source_clip::{MAX_JOINTS, SourceClip};
 
-pub use extra_joints::SourceExtra;
-pub use roles::{JointMap, Roles};
+pub use roles::{JointMap, Roles, SourceExtra};
 use source_rig::SourceRig;
 pub(crate) use source_rig::sampled_frames;
 

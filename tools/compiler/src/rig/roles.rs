@@ -1,9 +1,8 @@
 //! Roles of source joints in the canonical humanoid.
 
-use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::body::{ExtraJoint, JOINT_COUNT, Joint};
 
 use crate::read::source_clip::KeptJoints;
-use crate::rig::extra_joints::SourceExtra;
 
 /// Source joint of each role; none where the role is open.
 pub type JointMap = [Option<usize>; JOINT_COUNT];
@@ -32,6 +31,17 @@ pub struct Roles {
     pub extra: Vec<SourceExtra>,
     /// Whether names call left what stands on the right. The file is mirrored; roles are as the body stands.
     pub are_names_mirrored: bool,
+}
+
+/// An extra joint of a source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SourceExtra {
+    /// What the joint is.
+    pub joint: ExtraJoint,
+    /// The source joint.
+    pub source: usize,
+    /// Joint at the far end of its bone; `None` where the source has none.
+    pub end: Option<usize>,
 }
 
 impl Roles {

@@ -7,26 +7,15 @@
 use motiondb::body::extra_joint::FINGER_JOINTS;
 use motiondb::body::{EXTRA_JOINTS_MAX, ExtraJoint, Joint, Side};
 
+use crate::extra_joints::extra_names::{Digit, finger, is_twist, last_number, toe};
 use crate::read::source_clip::SourceClip;
-use crate::rig::extra_names::{Digit, finger, is_twist, last_number, toe};
 use crate::rig::joint_names::{BodyPart, hints};
-use crate::rig::roles::{ARMS, LEGS, Roles};
+use crate::rig::roles::{ARMS, LEGS, Roles, SourceExtra};
 
 /// Number of fingers of a hand and of toes of a foot.
 const DIGITS: usize = 5;
 /// Cosine of half the angle by which a joint that moves turns against its parent: 2°.
 const MOVING_COSINE: f64 = 0.99985;
-
-/// An extra joint of a source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SourceExtra {
-    /// What the joint is.
-    pub joint: ExtraJoint,
-    /// The source joint.
-    pub source: usize,
-    /// Joint at the far end of its bone; `None` where the source has none.
-    pub end: Option<usize>,
-}
 
 /// The extra joints of a source.
 #[derive(Clone, Debug, Default, PartialEq)]

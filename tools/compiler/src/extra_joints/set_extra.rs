@@ -12,8 +12,8 @@ use motiondb::statistics::mean;
 
 use crate::action::joined_action::JoinedAction;
 use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::extra_joints::clip_extra::ClipExtra;
 use crate::ground::pose_mean::mean_rotation;
-use crate::retarget::extra_tracks::ClipExtra;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::mirror::mirrored_rotation;
 use crate::select::named_cycles::NamedCycle;

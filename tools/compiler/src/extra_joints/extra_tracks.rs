@@ -17,29 +17,18 @@
 use glam::{DMat3, DQuat, DVec3};
 use motiondb::body::{ExtraJoint, ExtraParent, ExtraPart, Joint, Side};
 use motiondb::statistics::mean;
-use serde::{Deserialize, Serialize};
 
+use crate::extra_joints::clip_extra::ClipExtra;
 use crate::ground::pose_mean::mean_rotation;
 use crate::retarget::calibration::basis;
 use crate::retarget::joint_tracks::CalibratedTracks;
-use crate::rig::extra_joints::SourceExtra;
+use crate::rig::roles::SourceExtra;
 use crate::rig::sampled_frames;
 
 /// Hands, `[left, right]`.
 const HANDS: [Joint; 2] = [Joint::LeftHand, Joint::RightHand];
 /// Length below which a bone of a finger has no direction, m.
 const SHORTEST_BONE_M: f64 = 1e-3;
-
-/// An extra joint of a clip.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClipExtra {
-    /// What the joint is.
-    pub joint: ExtraJoint,
-    /// Position relative to its parent in the parent's frame, mean over the clip, m.
-    pub offset_m: DVec3,
-    /// Rotation in its parent's frame, mean over the clip.
-    pub mean: DQuat,
-}
 
 /// The extra joints of a source, calibrated.
 pub(crate) struct ExtraTracks {
