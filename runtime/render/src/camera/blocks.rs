@@ -50,6 +50,13 @@ fn obstacles(scenario: &Scenario) -> impl Iterator<Item = (&[Vec2], f32)> {
     obstacles.map(|(corners_m, height_m)| (&corners_m[..], height_m.unwrap_or(OBSTACLE_M)))
 }
 
+/// Corners and height of all that hides bodies, m: obstacles, doors, fences.
+pub(crate) fn solids(scenario: &Scenario) -> impl Iterator<Item = (&[Vec2], f32)> {
+    let doors = scenario.doors.iter().map(|door| (&door.polygon_m[..], DOOR_M));
+    let fences = scenario.enclosures_m.iter().map(|corners_m| (&corners_m[..], FENCE_M));
+    obstacles(scenario).chain(doors).chain(fences)
+}
+
 /// Appends the doors that are closed in a frame of the recording.
 pub(crate) fn append_doors(meshes: &mut Meshes, scenario: &Scenario, population: &Population, frame: u32) {
     for (door, phases) in scenario.doors.iter().zip(&population.doors) {

@@ -48,15 +48,15 @@ impl<'a> Take<'a> {
     /// If the camera does not exist, or a frame cannot be read.
     pub(crate) fn new(recording: &'a Recording, options: &'a CameraOptions) -> Result<Self, RenderError> {
         let times = frame_times(recording, options.shot.as_ref());
+        let size_px = size_px(recording, options);
         let camera = match find_camera(recording, options)? {
             Some(camera) if camera.gltf.is_some() => {
                 return Err(RenderError::UnreadCamera { camera: camera.name.clone() });
             }
             Some(camera) => camera.clone(),
-            None => default_camera(recording, times.start_s)?,
+            None => default_camera(recording, times.start_s, size_px)?,
         };
         let view = CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by);
-        let size_px = size_px(recording, options);
         Ok(Self {
             recording,
             options,
