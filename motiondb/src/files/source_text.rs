@@ -115,6 +115,16 @@ impl SourceText {
         let mut begins = self.text.lines().map(|line| line.trim_start_matches(['[', ' ', '\t']));
         begins.any(|line| line.split(is_end).next().is_some_and(|key| keys.contains(&key)))
     }
+
+    /// The bytes of the header `[[name]]` that follows some others of that name.
+    pub fn header_after(&self, name: &str, others: usize) -> Option<Range<usize>> {
+        let inner = |line: &str| Some(line.trim_start().strip_prefix("[[")?.split_once("]]")?.0.trim() == name);
+        let mut lines = self.text.split_inclusive('\n').scan(0, |end, line| {
+            *end += line.len();
+            Some((*end - line.len()..*end, line))
+        });
+        lines.by_ref().filter(|(_, line)| inner(line) == Some(true)).nth(others).map(|(bytes, _)| bytes)
+    }
 }
 
 /// The text of some bytes; an error that names another encoding, or the line that is not text in UTF-8.

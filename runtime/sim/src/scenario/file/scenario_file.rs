@@ -57,6 +57,7 @@ use crate::scenario::file::variation_value::VariationValue;
 use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::shot_spec::ShotSpec;
+use crate::scenario::rules::camera_check::CAMERAS_MAX;
 use crate::scenario::view::View;
 
 /// How to mend a scenario without agents.
@@ -127,6 +128,17 @@ pub(crate) struct ScenarioFile {
     cameras: Vec<Spanned<CameraSpec>>,
 }
 
+/// Rejects a text with too many tables of cameras before it is parsed, which takes seconds for some hundred thousand.
+pub(super) fn check_camera_count(source: &SourceText) -> Result<(), ScenarioError> {
+    match source.header_after("cameras", CAMERAS_MAX) {
+        Some(bytes) => {
+            let message = format!("the file has more than {CAMERAS_MAX} cameras");
+            Err(source.invalid(bytes, message, "give fewer").into())
+        }
+        None => Ok(()),
+    }
+}
+
 impl ScenarioFile {
     pub(crate) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
         if source.text.trim().is_empty() {
@@ -134,6 +146,7 @@ impl ScenarioFile {
                 .invalid(0..0, "the file is empty", "write a scenario as docs/scenario.md shows it")
                 .into());
         }
+        check_camera_count(source)?;
         toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS).into())
     }
 

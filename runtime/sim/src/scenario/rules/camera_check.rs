@@ -10,7 +10,7 @@ use crate::scenario::places::camera_spec::{CameraFollow, CameraKey, CameraOrbit,
 use crate::scenario::ranges::{COORDINATE_MAX_M, DURATION_S, check_name, within};
 
 /// Greatest number of cameras.
-const CAMERAS_MAX: usize = 1_000;
+pub(crate) const CAMERAS_MAX: usize = 1_000;
 /// Greatest number of keys of a camera: one for each frame of some hours.
 const KEYS_MAX: usize = 1_000_000;
 /// Focal length and width of the film, mm.
@@ -100,27 +100,29 @@ fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), Scena
         return part.fault("`node` belongs to `gltf`".into(), "name the file by `gltf`, or remove the key");
     }
     check_keys(part, keys)?;
-    if let Some(CameraOrbit { centre_m, radius_m, height_m, period_s, start_deg }) = *orbit {
-        check_point(part, "orbit.centre_m", centre_m)?;
-        within(part, "orbit: radius_m", radius_m, &DISTANCE_M, "give the distance from the centre in metres")?;
-        within(part, "orbit: height_m", height_m, &(0.0..=COORDINATE_MAX_M), "give the height in metres")?;
-        within(
-            part,
-            "orbit: period_s",
-            period_s.abs(),
-            &(0.1..=*DURATION_S.end()),
-            "give the time of one turn in seconds",
-        )?;
-        within(part, "orbit: start_deg", start_deg, &(-3_600.0..=3_600.0), "give an angle in degrees")?;
-    }
-    if let Some(CameraFollow { behind_m, left_m, height_m, .. }) = *follow {
-        for (name, offset_m) in
-            [("follow: behind_m", behind_m), ("follow: left_m", left_m), ("follow: height_m", height_m)]
-        {
-            within(part, name, offset_m, &OFFSET_M, "give a distance in metres")?;
-        }
-    }
-    Ok(())
+    orbit.as_ref().map_or(Ok(()), |orbit| check_orbit(part, orbit).map_err(|fault| under("orbit", fault)))?;
+    follow.as_ref().map_or(Ok(()), |follow| check_follow(part, follow).map_err(|fault| under("follow", fault)))
+}
+
+/// The fault of a key in a table of the camera, with the name of the table.
+fn under(table: &str, fault: ScenarioFault) -> ScenarioFault {
+    ScenarioFault { message: format!("{table}: {}", fault.message), ..fault }
+}
+
+fn check_orbit(part: &ScenarioPart, orbit: &CameraOrbit) -> Result<(), ScenarioFault> {
+    let CameraOrbit { centre_m, radius_m, height_m, period_s, start_deg } = *orbit;
+    check_point(part, "centre_m", centre_m)?;
+    within(part, "radius_m", radius_m, &DISTANCE_M, "give the distance from the centre in metres")?;
+    within(part, "height_m", height_m, &(0.0..=COORDINATE_MAX_M), "give the height in metres")?;
+    within(part, "period_s", period_s.abs(), &(0.1..=*DURATION_S.end()), "give the time of one turn in seconds")?;
+    within(part, "start_deg", start_deg, &(-3_600.0..=3_600.0), "give an angle in degrees")
+}
+
+fn check_follow(part: &ScenarioPart, follow: &CameraFollow) -> Result<(), ScenarioFault> {
+    let offsets_m = [("behind_m", follow.behind_m), ("left_m", follow.left_m), ("height_m", follow.height_m)];
+    offsets_m
+        .into_iter()
+        .try_for_each(|(name, offset_m)| within(part, name, offset_m, &OFFSET_M, "give a distance in metres"))
 }
 
 fn check_keys(part: &ScenarioPart, keys: &[CameraKey]) -> Result<(), ScenarioFault> {
@@ -129,10 +131,7 @@ fn check_keys(part: &ScenarioPart, keys: &[CameraKey]) -> Result<(), ScenarioFau
         within(part, "time_s", key.time_s, &(-DURATION_S.end()..=*DURATION_S.end()), "give the time in seconds")
             .and_then(|()| check_view_line(part, key.eye_m, key.look_at_m))
             .and_then(|()| check_up(part, key.eye_m, key.look_at_m, key.up))
-            .map_err(|fault| ScenarioFault {
-                message: format!("keys, entry {}: {}", index + 1, fault.message),
-                ..fault
-            })?;
+            .map_err(|fault| under(&format!("keys, entry {}", index + 1), fault))?;
     }
     match keys.windows(2).find(|pair| pair[1].time_s <= pair[0].time_s) {
         Some(pair) => {
@@ -248,7 +247,7 @@ mod tests {
                 "[camera]\nfov_deg = 40\norbit = { centre_m = [0, 0, inf], radius_m = 3, height_m = 2, period_s = 9 }"
                     .to_owned(),
                 5,
-                "z of orbit.centre_m is inf",
+                "orbit: z of centre_m is inf",
             ),
             (
                 "[camera]\nfov_deg = 40\norbit = { centre_m = [0, 0, 1], radius_m = 0, height_m = 2, period_s = 9 }"
@@ -256,6 +255,7 @@ mod tests {
                 5,
                 "orbit: radius_m is 0",
             ),
+            ("[camera]\nfov_deg = 40\nfollow = { agent = 0, left_m = 900 }".to_owned(), 5, "follow: left_m is 900"),
             (
                 "[camera]\nfov_deg = 40\nkeys = [\n{ time_s = 0, eye_m = [0, 1, 1], look_at_m = [0, 0, 1] },\n\
                  { time_s = 0, eye_m = [0, 1, nan], look_at_m = [0, 0, 1] }]"

@@ -81,6 +81,7 @@ pub(super) fn is_scenario(source: &SourceText) -> bool {
 
 impl CameraTables {
     pub(super) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
+        scenario_file::check_camera_count(source)?;
         toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS).into())
     }
 
@@ -130,6 +131,16 @@ mod tests {
         );
         let file = read(&text).unwrap();
         assert_eq!((file.cameras.len(), file.view.map(|view| view.width)), (1, Some(1280)));
+    }
+
+    #[test]
+    fn too_many_cameras_are_rejected_before_they_are_parsed() {
+        // Without a lens, so that parsed cameras would be another mistake.
+        let text = "[[cameras]]\n".repeat(1_001);
+        for text in [text.clone(), format!("duration_s = 1\nagents = []\n{text}")] {
+            let message = read(&text).unwrap_err().to_string();
+            assert!(message.contains("more than 1000 cameras"), "{message}");
+        }
     }
 
     #[test]
