@@ -66,6 +66,7 @@ pub(crate) struct MeshBuilder<'a> {
     unread: Vec<String>,
     hidden: usize,
     uneven: usize,
+    not_finite: usize,
     unweighted: usize,
 }
 
@@ -80,6 +81,7 @@ impl<'a> MeshBuilder<'a> {
             unread: Vec::new(),
             hidden: 0,
             uneven: 0,
+            not_finite: 0,
             unweighted: 0,
         }
     }
@@ -142,6 +144,7 @@ impl<'a> MeshBuilder<'a> {
         shown.retain(|triangle| self.is_shown(triangle, &coloured, texture, cut_out));
         self.hidden += count - shown.len();
         self.uneven += part.uneven;
+        self.not_finite += part.not_finite;
         self.unweighted += part.unweighted;
 
         let mut places: Vec<Option<u32>> = vec![None; part.positions_m.len()];
@@ -236,9 +239,10 @@ impl<'a> MeshBuilder<'a> {
         let counted = [
             CharacterNote::MaskedTriangles(self.hidden),
             CharacterNote::UnevenWeights(self.uneven),
+            CharacterNote::NotFiniteWeights(self.not_finite),
             CharacterNote::UnweightedVertices(self.unweighted),
         ];
-        let counts = [self.hidden, self.uneven, self.unweighted];
+        let counts = [self.hidden, self.uneven, self.not_finite, self.unweighted];
         notes.extend(counted.into_iter().zip(counts).filter(|(_, count)| *count > 0).map(|(note, _)| note));
         self.mesh
     }

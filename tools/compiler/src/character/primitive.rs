@@ -29,6 +29,8 @@ pub(crate) struct Part {
     pub triangles: Vec<[u32; 3]>,
     /// Vertices whose weights did not add up to 1.
     pub uneven: usize,
+    /// Weights that are not finite, which count as 0.
+    pub not_finite: usize,
     /// Vertices without weights.
     pub unweighted: usize,
 }
@@ -70,9 +72,11 @@ pub(crate) fn read(
         weights: Vec::with_capacity(positions.len()),
         triangles: triangles(document, instance, positions.len())?,
         uneven: 0,
+        not_finite: 0,
         unweighted: 0,
     };
     let influences = Influences::new(document, instance, pose, pelvis)?;
+    part.not_finite = influences.not_finite;
     let matrices: Vec<DMat4> = influences.matrices.iter().map(|matrix| *to_body * *matrix).collect();
     let of_normals: Vec<(DMat3, bool)> = matrices.iter().map(of_normals).collect();
     let mut mirrored = 0;
@@ -163,6 +167,8 @@ struct Influences {
     /// Joint and weight, [`Influences::per_vertex`] for each vertex; empty for a rigid mesh.
     pairs: Vec<(usize, f32)>,
     per_vertex: usize,
+    /// Weights that are not finite, which count as 0.
+    not_finite: usize,
     /// Whether the mesh has no skin.
     is_rigid: bool,
 }
@@ -172,7 +178,7 @@ impl Influences {
         let Some(skin) = instance.skin.map(|skin| &pose.skins[skin]) else {
             let slots = vec![instance.slot];
             let matrices = vec![pose.bind[instance.slot]];
-            return Ok(Self { slots, matrices, pairs: Vec::new(), per_vertex: 0, is_rigid: true });
+            return Ok(Self { slots, matrices, pairs: Vec::new(), per_vertex: 0, not_finite: 0, is_rigid: true });
         };
         let mut slots = skin.slots.clone();
         let mut matrices: Vec<DMat4> =
@@ -192,9 +198,11 @@ impl Influences {
         }
         let count = lists.iter().map(|(joints, weights)| joints.len().min(weights.len()) / 4).min().unwrap_or(0);
         let mut pairs = Vec::with_capacity(count * 4 * lists.len());
+        let mut not_finite = 0;
         for vertex in 0..count {
             for (joints, weights) in &lists {
                 for index in 4 * vertex..4 * vertex + 4 {
+                    not_finite += usize::from(!weights[index].is_finite());
                     let weight = if weights[index].is_finite() { weights[index].max(0.0) } else { 0.0 };
                     if weight > 0.0 && !(joints[index] >= 0.0 && (joints[index] as usize) < skin.slots.len()) {
                         return malformed(instance, "a weight of a joint that its skin does not have");
@@ -203,7 +211,7 @@ impl Influences {
                 }
             }
         }
-        Ok(Self { slots, matrices, pairs, per_vertex: 4 * lists.len(), is_rigid: false })
+        Ok(Self { slots, matrices, pairs, per_vertex: 4 * lists.len(), not_finite, is_rigid: false })
     }
 
     /// The greatest weights of a vertex, falling, scaled to add up to 1; and the sum of all.

@@ -184,6 +184,8 @@ pub enum CharacterNote {
     SpareMeshes(Vec<String>),
     /// Weights of so many vertices did not add up to 1.
     UnevenWeights(usize),
+    /// So many weights are not finite; they count as 0.
+    NotFiniteWeights(usize),
     /// Vertices that no joint moves; they move with the pelvis.
     UnweightedVertices(usize),
     /// Required extensions that are not read.
@@ -204,6 +206,7 @@ impl CharacterNote {
             Self::LooseMeshes(_) => "loose_meshes",
             Self::SpareMeshes(_) => "spare_meshes",
             Self::UnevenWeights(_) => "uneven_weights",
+            Self::NotFiniteWeights(_) => "not_finite_weights",
             Self::UnweightedVertices(_) => "unweighted_vertices",
             Self::UnreadExtensions(_) => "unread_extensions",
             Self::MirroredNames => "mirrored_names",
@@ -235,6 +238,7 @@ impl fmt::Display for CharacterNote {
             Self::UnevenWeights(count) => {
                 write!(out, "weights of {count} vertices did not add up to 1 and were scaled")
             }
+            Self::NotFiniteWeights(count) => write!(out, "{count} weights are not finite and count as 0"),
             Self::UnweightedVertices(count) => write!(out, "{count} vertices without weights move with the pelvis"),
             Self::UnreadExtensions(names) => write!(out, "extensions that are not read: {}", names.join(", ")),
             Self::MirroredNames => out.write_str("names call left what stands on the right; sides follow the feet"),

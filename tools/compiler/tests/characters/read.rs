@@ -53,6 +53,19 @@ fn scale_axes_and_weights_do_not_matter() {
 }
 
 #[test]
+fn weights_that_are_not_finite_are_noted() {
+    let (json, mut bytes) = Figure::adult().document();
+    let plain = compiled(&glb(&json, &bytes)).character;
+    let accessor = json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"].as_u64().unwrap() as usize;
+    let view = json["accessors"][accessor]["bufferView"].as_u64().unwrap() as usize;
+    let second = json["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize + 4;
+    bytes[second..second + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let CompiledCharacter { character, notes, .. } = compiled(&glb(&json, &bytes));
+    assert_eq!(notes, [CharacterNote::NotFiniteWeights(1)]);
+    assert_eq!(character.mesh.weights, plain.mesh.weights);
+}
+
+#[test]
 fn missing_normals_point_outwards() {
     let stated = compiled(&Figure::adult().glb()).character.mesh;
     let computed = compiled(&Figure { has_normals: false, ..Figure::adult() }.glb()).character.mesh;
