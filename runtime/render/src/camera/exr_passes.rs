@@ -72,8 +72,7 @@ impl<'a> PassedFrame<'a> {
         let tiles = PreparedTiles::new(&self.scene, lens, view.samples());
         let columns = lens.size_px[0].div_ceil(TILE_PX);
         self.write(path, &matted, of_samples, |rows| {
-            let ground = Some(lens.ground());
-            tiles.draw(lens, view.samples(), ground, rows, |tile| {
+            tiles.draw(Some(lens.ground()), rows, |tile| {
                 let [column, row] = tile.corner_px.map(|corner_px| corner_px / TILE_PX);
                 let mattes = &mattes[(row * columns + column) as usize];
                 (picture.tile(column as usize, row as usize), passes.tile(tile, mattes, of_samples))

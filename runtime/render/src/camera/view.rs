@@ -71,8 +71,7 @@ impl PreparedFrame<'_> {
             occlusion: self.quality.occlusion,
             fog_m: *fog_m,
         };
-        self.tiles
-            .draw(lens, self.quality.samples, Some(lens.ground()), rows, |tile| (shader.tile(tile), of_tile(tile)))
+        self.tiles.draw(Some(lens.ground()), rows, |tile| (shader.tile(tile), of_tile(tile)))
     }
 }
 

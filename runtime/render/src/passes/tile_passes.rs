@@ -107,7 +107,12 @@ impl FramePasses<'_> {
     /// pixel. Whole numbers and ids are stored as bits.
     pub(crate) fn tile(&self, tile: &TileSamples<'_>, mattes: &TileMattes, of_samples: usize) -> Vec<f32> {
         let (mut values, mut coverage) = (Vec::new(), mattes.coverages(of_samples));
-        for pixel in 0..tile.size_px[0] * tile.size_px[1] {
+        let pixels = tile.size_px[0] * tile.size_px[1];
+        for pixel in 0..pixels {
+            if pixel == 1 {
+                // All pixels have as many values as the first one.
+                values.reserve_exact(values.len() * (pixels as usize - 1));
+            }
             let nearest = &nearest_sample(tile, pixel as usize);
             for pass in Pass::ALL.into_iter().filter(|pass| self.passes.holds(*pass)) {
                 match pass {

@@ -7,7 +7,7 @@
 //! World: metres, z up. Camera space: x right, y down, z forward, metres; depth is z.
 //!
 //! Read `lens`, then `scene_parts` (what is drawn) with `part`, `texture` and `closed_surface`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
-//! `screen_bounds`, `tile_samples` (one tile), and `tiles` (all of them, in parallel).
+//! `screen_bounds`, `screen_meshes`, `tile_samples` (one tile), and `tiles` (all of them, in parallel).
 
 pub(crate) mod closed_surface;
 pub(crate) mod lens;
@@ -16,6 +16,7 @@ pub(crate) mod rounded_cone;
 pub(crate) mod sample_pattern;
 pub(crate) mod scene_parts;
 pub(crate) mod screen_bounds;
+pub(crate) mod screen_meshes;
 pub(crate) mod texture;
 pub(crate) mod tile_samples;
 pub(crate) mod tiles;

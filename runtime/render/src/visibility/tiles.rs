@@ -13,16 +13,12 @@ use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::SamplePattern;
 use crate::visibility::scene_parts::SceneParts;
 use crate::visibility::screen_bounds::{PixelBounds, cone_bounds};
+use crate::visibility::screen_meshes::ScreenMeshes;
 use crate::visibility::tile_samples::TileSamples;
-use crate::visibility::triangle::{Projection, ScreenTriangle, screen_position, weights};
+use crate::visibility::triangle::{ScreenTriangle, weights};
 
 /// Side of a tile, pixels: its samples fit the first cache.
 pub(crate) const TILE_PX: u32 = 32;
-/// Number of triangles that are projected at once.
-const TRIANGLES_AT_ONCE: usize = 4096;
-/// Number of such chunks of each thread that exist at once.
-const CHUNKS_OF_THREAD: usize = 8;
-
 /// A cone, and the pixels that it can touch.
 struct VisibleCone {
     shape: PreparedCone,
@@ -30,8 +26,11 @@ struct VisibleCone {
     bounds: PixelBounds,
 }
 
-/// The parts that can touch each tile, in their order.
+/// The parts that can touch each tile of some rows, in their order.
 struct TileLists {
+    /// Rows of tiles, and the number of tiles of a row.
+    rows: Range<u32>,
+    columns: u32,
     /// Index of the first entry of each tile, and the number of entries.
     starts: Vec<u32>,
     entries: Vec<u32>,
@@ -47,39 +46,41 @@ pub(crate) fn for_each_tile<T: Send>(
     function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
 ) -> Vec<T> {
     let tiles = PreparedTiles::new(scene, lens, pattern);
-    tiles.draw(lens, pattern, ground, 0..tiles.sides[1], function)
+    tiles.draw(ground, 0..tiles.sides[1], function)
 }
 
 /// The parts of a scene that a lens sees, by tiles.
 pub(crate) struct PreparedTiles<'a> {
     scene: &'a SceneParts,
+    lens: &'a Lens,
+    pattern: SamplePattern,
     cones: Vec<VisibleCone>,
-    triangles: Vec<ScreenTriangle>,
     cone_lists: TileLists,
-    triangle_lists: TileLists,
+    meshes: ScreenMeshes<'a>,
     /// Number of tiles along width and height.
     sides: [u32; 2],
 }
 
 impl<'a> PreparedTiles<'a> {
-    pub(crate) fn new(scene: &'a SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
-        let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens, pattern));
-        let sides = lens.size_px.map(|side| side.div_ceil(TILE_PX));
-        let cone_lists = TileLists::new(sides, &cones, |cone| cone.bounds);
-        let triangle_lists = TileLists::new(sides, &triangles, |triangle| triangle.bounds(lens.size_px));
-        Self { scene, cones, triangles, cone_lists, triangle_lists, sides }
+    pub(crate) fn new(scene: &'a SceneParts, lens: &'a Lens, pattern: SamplePattern) -> Self {
+        let (cones, sides) = (visible_cones(scene, lens), lens.size_px.map(|side| side.div_ceil(TILE_PX)));
+        let cone_lists = TileLists::new(sides[0], 0..sides[1], &cones, |cone| cone.bounds);
+        let meshes = ScreenMeshes::new(&scene.meshes, lens, pattern);
+        Self { scene, lens, pattern, cones, cone_lists, meshes, sides }
     }
 
     /// As [`for_each_tile`], for some rows of tiles.
     pub(crate) fn draw<T: Send>(
         &self,
-        lens: &Lens,
-        pattern: SamplePattern,
         ground: Option<GroundDepth>,
         rows: Range<u32>,
         function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
     ) -> Vec<T> {
+        let Self { scene, lens, pattern, .. } = *self;
         let columns = self.sides[0];
+        let triangles = self.meshes.visible(rows.start * TILE_PX..(rows.end * TILE_PX).min(lens.size_px[1]));
+        let triangle_lists =
+            TileLists::new(columns, rows.clone(), &triangles, |triangle| triangle.bounds(lens.size_px));
         let draw = |tile: u32| {
             let corner_px = [tile % columns * TILE_PX, tile / columns * TILE_PX];
             let mut samples = TileSamples::new(lens, pattern, corner_px, TILE_PX);
@@ -89,8 +90,8 @@ impl<'a> PreparedTiles<'a> {
             for cone in self.cone_lists.of(tile).map(|index| &self.cones[index]) {
                 samples.draw_cone(&cone.shape, cone.part, cone.bounds);
             }
-            for triangle in self.triangle_lists.of(tile).map(|index| &self.triangles[index]) {
-                draw_triangle(&mut samples, self.scene, lens, pattern, triangle);
+            for triangle in triangle_lists.of(tile).map(|index| &triangles[index]) {
+                draw_triangle(&mut samples, scene, lens, pattern, triangle);
             }
             function(&mut samples)
         };
@@ -145,39 +146,16 @@ fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<VisibleCone> {
     scene.cones.par_iter().enumerate().filter_map(prepare).collect()
 }
 
-fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Vec<ScreenTriangle> {
-    let meshes = &scene.meshes;
-    let positions: Vec<[i32; 2]> =
-        meshes.positions_m.par_iter().map(|position_m| screen_position(*position_m, lens)).collect();
-    let projection = Projection { lens, pattern };
-    let project = |(chunk, triangles): (usize, &[[u32; 3]])| {
-        let mut visible = Vec::new();
-        for (offset, corners) in triangles.iter().enumerate() {
-            let index = chunk * TRIANGLES_AT_ONCE + offset;
-            let corners = corners.map(|corner| positions[corner as usize]);
-            let corners_m = || meshes.corners_m(index);
-            projection.append_visible(&mut visible, index as u32, corners, corners_m, meshes.hides_back(index));
-        }
-        visible
-    };
-    let chunks: Vec<(usize, &[[u32; 3]])> = meshes.triangles.chunks(TRIANGLES_AT_ONCE).enumerate().collect();
-    let mut visible = Vec::new();
-    // Few chunks exist at a time: the triangles of a large crowd take hundreds of megabytes.
-    for chunks in chunks.chunks(CHUNKS_OF_THREAD * rayon::current_num_threads()) {
-        let of_chunks: Vec<Vec<ScreenTriangle>> = chunks.par_iter().map(|chunk| project(*chunk)).collect();
-        of_chunks.iter().for_each(|of_chunk| visible.extend_from_slice(of_chunk));
-    }
-    visible
-}
-
 impl TileLists {
     /// A counting sort of shapes by tile.
-    fn new<T>(tiles: [u32; 2], shapes: &[T], bounds: impl Fn(&T) -> PixelBounds) -> Self {
+    fn new<T>(columns: u32, rows: Range<u32>, shapes: &[T], bounds: impl Fn(&T) -> PixelBounds) -> Self {
         let tiles_of = |shape: &T| {
             let [first, last] = bounds(shape).map(|corner| corner.map(|at| at / TILE_PX));
-            (first[1]..=last[1]).flat_map(move |row| (first[0]..=last[0]).map(move |column| row * tiles[0] + column))
+            let touched = first[1].max(rows.start)..(last[1] + 1).min(rows.end);
+            let first_row = rows.start;
+            touched.flat_map(move |row| (first[0]..=last[0]).map(move |column| (row - first_row) * columns + column))
         };
-        let mut starts = vec![0; (tiles[0] * tiles[1]) as usize + 1];
+        let mut starts = vec![0; columns as usize * rows.len() + 1];
         for tile in shapes.iter().flat_map(tiles_of) {
             starts[tile as usize + 1] += 1;
         }
@@ -192,11 +170,13 @@ impl TileLists {
                 next[tile as usize] += 1;
             }
         }
-        Self { starts, entries }
+        Self { rows, columns, starts, entries }
     }
 
+    /// The parts of a tile of the picture, by its index.
     fn of(&self, tile: u32) -> impl Iterator<Item = usize> {
-        let (from, to) = (self.starts[tile as usize] as usize, self.starts[tile as usize + 1] as usize);
+        let at = (tile - self.rows.start * self.columns) as usize;
+        let (from, to) = (self.starts[at] as usize, self.starts[at + 1] as usize);
         self.entries[from..to].iter().map(|index| *index as usize)
     }
 }
@@ -352,6 +332,21 @@ mod tests {
         assert!(once == draw(3));
         let parts: std::collections::BTreeSet<_> = once.iter().flat_map(|(_, parts)| parts).collect();
         assert!(parts.len() > 15, "{} parts are visible", parts.len());
+    }
+
+    #[test]
+    fn rows_that_are_drawn_alone_are_those_of_the_whole() {
+        // Before the eye, from below to above, so that each row of tiles needs some chunks of triangles.
+        let mut scene = random_scene(&mut SplitMix64::new(9, 3), 20, 30_000);
+        let (positions_m, triangles) = (&scene.meshes.positions_m, &mut scene.meshes.triangles);
+        triangles.retain(|corners| corners.iter().all(|corner| positions_m[*corner as usize].y > 0.0));
+        assert!(triangles.len() > 10_000);
+        triangles.sort_by(|a, b| positions_m[a[0] as usize].z.total_cmp(&positions_m[b[0] as usize].z));
+        for lens in &lenses() {
+            let tiles = PreparedTiles::new(&scene, lens, SamplePattern::One);
+            let draw = |rows: Range<u32>| tiles.draw(None, rows, |tile| (tile.depths_m.clone(), tile.parts.clone()));
+            assert!(draw(0..3) == [draw(0..1), draw(1..3)].concat());
+        }
     }
 
     #[test]

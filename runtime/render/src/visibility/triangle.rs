@@ -44,10 +44,12 @@ pub(crate) struct Edge {
 pub(crate) struct Projection<'a> {
     pub(crate) lens: &'a Lens,
     pub(crate) pattern: SamplePattern,
+    /// First line that is drawn, and the one after the last.
+    pub(crate) lines: [i32; 2],
 }
 
 /// Position of a vertex that lies before the near plane or far beside the picture.
-const FAR: [i32; 2] = [i32::MIN; 2];
+pub(crate) const FAR: [i32; 2] = [i32::MIN; 2];
 
 /// Position of a point of the world in the picture, units; [`FAR`] where its triangles are to be clipped.
 pub(crate) fn screen_position(point_m: Vec3, lens: &Lens) -> [i32; 2] {
@@ -137,11 +139,11 @@ impl Projection<'_> {
         depth.is_finite().then_some(ScreenTriangle { index, corners, depth })
     }
 
-    /// Whether a sample of the picture lies in the box around three corners: most triangles of a distant body hold none.
+    /// Whether a sample of the lines lies in the box around three corners: most triangles of a distant body hold none.
     fn may_hold_sample(&self, corners: [[i32; 2]; 3]) -> bool {
         let ranges = [range(&corners, 0), range(&corners, 1)];
-        let is_beside = |axis: usize| ranges[axis][1] < 0 || ranges[axis][0] >= self.lens.size_px[axis] as i32 * UNITS;
-        if is_beside(0) || is_beside(1) {
+        let is_beside = |[low, high]: [i32; 2], [first, end]: [i32; 2]| high < first * UNITS || low >= end * UNITS;
+        if is_beside(ranges[0], [0, self.lens.size_px[0] as i32]) || is_beside(ranges[1], self.lines) {
             return false;
         }
         // The first sample that is not before the box is not behind it.
