@@ -81,6 +81,6 @@ impl Template {
             meshes.colours.push(colours[vertex.cloth as usize]);
         }
         meshes.triangles.extend(self.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
-        meshes.owners.resize(meshes.triangles.len(), owner);
+        meshes.owners.fill(meshes.triangles.len(), owner);
     }
 }

@@ -34,7 +34,7 @@ impl Matted {
     /// What a scene shows.
     pub(crate) fn new(scene: &SceneParts, population: &Population) -> Self {
         let mut owners: Vec<Owner> = scene.cones.iter().map(|cone| cone.owner).collect();
-        owners.extend(&scene.meshes.owners);
+        owners.extend(scene.meshes.owners.distinct());
         // Parts of an agent follow each other.
         owners.dedup();
         let agents: BTreeSet<u32> =

@@ -17,7 +17,7 @@ use crate::passes::camera_matrices::{world_to_camera, world_to_normalized_device
 use crate::passes::tile_passes::{Channel, ChannelKind};
 use crate::raster::colour_space::ColourSpace;
 use crate::raster::exr_frame::rational;
-use crate::raster::scan_lines;
+use crate::raster::scan_lines::{self, STRIP_STEP};
 use crate::visibility::lens::NEAR_M;
 use crate::visibility::{Lens, TILE_PX};
 
@@ -109,7 +109,7 @@ fn encode(
     let line = |strip: &Strip, y: usize, bytes: &mut Vec<u8>| {
         order.iter().for_each(|channel| strip.append_line(y, *channel, bytes));
     };
-    scan_lines::write(out, headers, STRIP_PIXELS / width, strip, line)
+    scan_lines::write(out, headers, STRIP_PIXELS / width / STRIP_STEP * STRIP_STEP, strip, line)
 }
 
 /// Where the samples of a channel come from, and their type.

@@ -50,6 +50,6 @@ impl SurfacePoint {
             let texel = scene.texel(triangle, weights, footprint_m).unwrap_or(Vec4::ONE);
             colour = paint.dye.applied(colour * texel.truncate(), paint.keeps_hue);
         }
-        Self { point_m, normal, colour, owner: meshes.owners[triangle] }
+        Self { point_m, normal, colour, owner: meshes.owners.of(triangle) }
     }
 }

@@ -6,11 +6,12 @@
 //!
 //! World: metres, z up. Camera space: x right, y down, z forward, metres; depth is z.
 //!
-//! Read `lens`, then `scene_parts` (what is drawn) with `part`, `texture` and `closed_surface`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
+//! Read `lens`, then `scene_parts` (what is drawn) with `part`, `owner`, `texture` and `closed_surface`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
 //! `screen_bounds`, `screen_meshes`, `tile_samples` (one tile), and `tiles` (all of them, in parallel).
 
 pub(crate) mod closed_surface;
 pub(crate) mod lens;
+pub(crate) mod owner;
 pub(crate) mod part;
 pub(crate) mod rounded_cone;
 pub(crate) mod sample_pattern;
@@ -24,9 +25,10 @@ pub(crate) mod triangle;
 
 pub(crate) use closed_surface::closed_triangles;
 pub use lens::Lens;
+pub use owner::{Owner, Owners};
 pub use part::PartId;
 pub use sample_pattern::SamplePattern;
-pub use scene_parts::{Cone, Meshes, Owner, Paint, SceneParts};
+pub use scene_parts::{Cone, Meshes, Paint, SceneParts};
 pub use texture::Texture;
 pub use tile_samples::{Fragment, TileSamples};
 pub(crate) use tiles::{PreparedTiles, TILE_PX, for_each_tile};

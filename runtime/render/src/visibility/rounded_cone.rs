@@ -147,7 +147,7 @@ mod tests {
     use fbcrowd_sim::maths::SplitMix64;
 
     use super::*;
-    use crate::visibility::scene_parts::Owner;
+    use crate::visibility::owner::Owner;
 
     pub(super) fn random_cone(random: &mut SplitMix64) -> Cone {
         let mut within = |range: f64| random.within(range) as f32;

@@ -5,24 +5,9 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, Vec4};
 use motiondb::character::{CutOut, Dye};
 
+use crate::visibility::owner::{Owner, Owners};
 use crate::visibility::part::{PartId, Shape};
 use crate::visibility::texture::Texture;
-
-/// What a part belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Owner {
-    /// Id of the agent; [`Owner::NO_AGENT`] for a part of the scene.
-    pub agent: u32,
-    /// Material, by index: what a matte by material separates.
-    pub material: u32,
-}
-
-impl Owner {
-    /// The agent of parts that belong to none.
-    pub const NO_AGENT: u32 = u32::MAX;
-    /// A part of the scene: walls, blocks.
-    pub const SCENE: Self = Self { agent: Self::NO_AGENT, material: 0 };
-}
 
 /// A ball that is swept along a segment while its radius changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +47,7 @@ pub struct Meshes {
     /// Vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// What each triangle belongs to.
-    pub owners: Vec<Owner>,
+    pub owners: Owners,
     /// Texture coordinates of vertices; those beyond the list's end have none.
     pub uvs: Vec<Vec2>,
     /// Textures on triangles.
@@ -111,7 +96,7 @@ impl SceneParts {
     pub(crate) fn owner(&self, part: PartId) -> Option<Owner> {
         self.shape(part).map(|shape| match shape {
             Shape::Cone(cone) => self.cones[cone].owner,
-            Shape::Triangle(triangle) => self.meshes.owners[triangle],
+            Shape::Triangle(triangle) => self.meshes.owners.of(triangle),
         })
     }
 }
@@ -146,7 +131,7 @@ impl Meshes {
         self.colours.extend_from_slice(&colours[..count]);
         let valid = triangles.iter().filter(|corners| corners.iter().all(|&corner| (corner as usize) < count));
         self.triangles.extend(valid.map(|corners| corners.map(|corner| first + corner)));
-        self.owners.resize(self.triangles.len(), owner);
+        self.owners.fill(self.triangles.len(), owner);
     }
 
     /// Textures the last triangles of the last vertices: coordinates of these vertices, and runs of so many triangles with
@@ -209,7 +194,7 @@ impl Meshes {
         self.normals.extend_from_slice(&other.normals);
         self.colours.extend_from_slice(&other.colours);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
-        self.owners.extend_from_slice(&other.owners);
+        self.owners.extend(&other.owners);
     }
 
     /// A value of each vertex, blended by the weights of a triangle's corners.

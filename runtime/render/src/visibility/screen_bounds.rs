@@ -69,7 +69,8 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::visibility::scene_parts::{Cone, Owner};
+    use crate::visibility::owner::Owner;
+    use crate::visibility::scene_parts::Cone;
 
     #[test]
     fn bounds_hold_every_point_of_the_surface_and_little_more() {

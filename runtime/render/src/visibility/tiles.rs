@@ -189,7 +189,8 @@ mod tests {
 
     use super::*;
     use crate::visibility::closed_triangles;
-    use crate::visibility::scene_parts::{Cone, Owner, Paint};
+    use crate::visibility::owner::Owner;
+    use crate::visibility::scene_parts::{Cone, Paint};
     use crate::visibility::texture::Texture;
 
     fn random_scene(random: &mut SplitMix64, cones: usize, triangles: usize) -> SceneParts {

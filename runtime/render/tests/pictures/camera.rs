@@ -135,8 +135,9 @@ fn agents_are_drawn_at_their_stature() {
         let scene = view.scene(&Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None }, &agents);
         let of_cones = scene.cones.iter().flat_map(|cone| cone.ends_m.map(|end_m| end_m.z + cone.radii_m[0]));
         let meshes = &scene.meshes;
-        let bodies = meshes.triangles.iter().zip(&meshes.owners).filter(|(_, owner)| owner.agent != Owner::NO_AGENT);
-        let corners = bodies.flat_map(|(corners, _)| corners.map(|corner| meshes.positions_m[corner as usize].z));
+        let bodies = meshes.triangles.iter().enumerate();
+        let bodies = bodies.filter(|(triangle, _)| meshes.owners.of(*triangle).agent != Owner::NO_AGENT);
+        let corners = bodies.flat_map(|(_, corners)| corners.map(|corner| meshes.positions_m[corner as usize].z));
         corners.chain(of_cones).fold(0.0, f32::max)
     };
     // As surfaces, and far away as cones. The head of a child is large for its body.
