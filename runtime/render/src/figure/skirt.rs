@@ -1,4 +1,5 @@
-//! Skirts, and the lower part of coats: cloth around the hips and both thighs, open below. Rest pose, metres.
+//! Skirts, and the lower part of coats: cloth that hangs from the pelvis around both thighs, open below. Where a step
+//! moves a thigh through it, it is pushed out. Rest pose, metres.
 
 use glam::Vec3;
 use motiondb::body::Joint;
@@ -6,7 +7,7 @@ use motiondb::body::Joint;
 use crate::figure::build::Build;
 use crate::figure::section::Section;
 use crate::figure::style::Cloth;
-use crate::figure::template::{Template, Vertex};
+use crate::figure::template::{HangingCloth, Template};
 use crate::figure::trunk::sex_factors;
 
 /// Sections of a skirt: height, half width, front, back.
@@ -31,10 +32,6 @@ const COAT: [[f32; 4]; 8] = [
     [0.640, 0.210, 0.156, 0.164],
     [0.580, 0.215, 0.163, 0.170],
 ];
-/// Height up to which cloth follows the thighs alone, and from which it follows the pelvis alone, on the reference body, m.
-const FOLLOWS_M: [f32; 2] = [0.78, 0.96];
-/// Half width over which cloth changes from one thigh to the other, m: about that of the hips.
-const BETWEEN_M: f32 = 0.12;
 /// Thickness of the hem, m.
 const HEM_M: f32 = 0.012;
 
@@ -53,11 +50,11 @@ impl Template {
         // Front × side × up is right-handed.
         let mut sections: Vec<Section> = [rows[6], rows[7]].map(|row| section(build, inside(row))).to_vec();
         sections.extend(rows.iter().rev().map(|row| section(build, *row)));
-        let first = self.vertices.len();
-        self.loft(&sections, build.fineness.points(12));
-        for vertex in &mut self.vertices[first..] {
-            follow_thighs(vertex, build.scale);
-        }
+        let points = build.fineness.points(12);
+        self.loft(&sections, points);
+        let waist = sections[sections.len() - 1].at;
+        self.hanging =
+            Some(HangingCloth { waist, inner: 2 * points as usize, scale: build.scale, hem: HEM_M * build.scale });
     }
 }
 
@@ -71,23 +68,6 @@ fn section(build: &Build, [height, width, front, back]: [f32; 4]) -> Section {
         power: 2.2,
         ..Section::round(at, Vec3::Y * side, Vec3::X * ahead, Joint::Pelvis.index(), Cloth::Skirt)
     }
-}
-
-/// Lets a point follow the thigh of its side, in the middle both, and above them the pelvis.
-fn follow_thighs(vertex: &mut Vertex, scale: f32) {
-    let point = vertex.position / scale;
-    let [low, high] = FOLLOWS_M;
-    let left = smooth_step(0.5 + 0.5 * point.y / BETWEEN_M);
-    let thigh = 1.0 - smooth_step((point.z - low) / (high - low));
-    let [left_thigh, right_thigh] = Joint::THIGHS.map(Joint::index);
-    let shares = [1.0 - thigh, thigh * left, thigh * (1.0 - left)];
-    vertex.follow([(Joint::Pelvis.index(), shares[0]), (left_thigh, shares[1]), (right_thigh, shares[2])]);
-}
-
-/// Hermite's step from 0 to 1, level at both ends: cloth has no edge there.
-fn smooth_step(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }
 
 #[cfg(test)]
@@ -134,12 +114,31 @@ mod tests {
     }
 
     #[test]
+    fn the_hem_of_a_skirt_stays_level_in_strides() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/walkers.fbrec");
+        let recording = Recording::open(&path).unwrap();
+        let build = Build::new(recording.header().skeleton(), Sex::Female, Fineness::Fine);
+        let heights_m = |forward_rad: [f32; 2]| {
+            let mut skirt = Template::default();
+            skirt.add_skirt(&build);
+            let points = Fineness::Fine.points(12) as usize;
+            let hem = posed(skirt, &striding(&build, forward_rad)).positions_m[2 * points..3 * points].to_vec();
+            let heights = hem.iter().map(|point_m| point_m.z / build.scale);
+            [heights.clone().fold(f32::INFINITY, f32::min), heights.fold(0.0, f32::max)]
+        };
+        for forward_rad in [[0.0, 0.0], [0.35, -0.35], [0.5, -0.4], [-0.3, 0.52]] {
+            let [low_m, high_m] = heights_m(forward_rad);
+            assert!(low_m > 0.535 && high_m < low_m + 0.045, "{forward_rad:?}: {low_m} to {high_m}");
+        }
+    }
+
+    #[test]
     fn legs_stay_inside_a_skirt_in_strides() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/walkers.fbrec");
         let recording = Recording::open(&path).unwrap();
         for fineness in Fineness::ALL {
             let build = Build::new(recording.header().skeleton(), Sex::Female, fineness);
-            for forward_rad in [[0.35, -0.35], [0.52, -0.3], [-0.3, 0.52]] {
+            for forward_rad in [[0.35, -0.35], [0.5, -0.4], [-0.4, 0.5], [0.52, -0.3], [0.6, -0.5]] {
                 let joints = striding(&build, forward_rad);
                 let (mut skirt, mut legs) = (Template::default(), Template::default());
                 skirt.add_skirt(&build);

@@ -1,10 +1,20 @@
-//! A mesh in the rest pose, and the joints that move its vertices. Metres.
+//! A mesh in the rest pose, and what moves its vertices: joints, and thighs that push hanging cloth out. Metres.
 
 use glam::{Mat3, Vec3};
+use motiondb::body::Joint;
 
 use crate::figure::section::Section;
 use crate::figure::style::{CLOTHS, Cloth};
 use crate::visibility::{Meshes, Owner};
+
+/// Radius of a thigh with trousers at hip and knee, and the room between it and cloth, on the reference body, m.
+const THIGH_M: [f32; 2] = [0.086, 0.066];
+/// Width over which cloth bends where a thigh begins to push it, on the reference body, m.
+const BEND_M: f32 = 0.03;
+/// Share of the thigh from which cloth is pushed fully; above the hips it is tight.
+const LOOSE_FROM: f32 = 0.3;
+/// Distance by which the hem stands out from the waist at rest, on the reference body, m.
+const FLARE_M: f32 = 0.06;
 
 /// A vertex of a template.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +22,7 @@ pub(crate) struct Vertex {
     pub(crate) position: Vec3,
     normal: Vec3,
     /// The joints that it follows, and their shares; a share of 0 is left out.
-    joints: [(usize, f32); 3],
+    joints: [(usize, f32); 2],
     cloth: Cloth,
 }
 
@@ -21,6 +31,21 @@ pub(crate) struct Vertex {
 pub(crate) struct Template {
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) triangles: Vec<[u32; 3]>,
+    /// What keeps the legs inside, where the mesh is cloth that hangs around them.
+    pub(crate) hanging: Option<HangingCloth>,
+}
+
+/// What moves hanging cloth away from the legs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HangingCloth {
+    /// Upper end of the middle line at rest.
+    pub(crate) waist: Vec3,
+    /// Number of vertices inside the hem: the first ones.
+    pub(crate) inner: usize,
+    /// Size relative to the reference body.
+    pub(crate) scale: f32,
+    /// Thickness of the hem, m.
+    pub(crate) hem: f32,
 }
 
 /// A posed joint: turns and moves what is fixed to it, from the rest pose into the world.
@@ -41,30 +66,30 @@ impl PosedJoint {
 impl Vertex {
     pub(crate) fn new(position: Vec3, section: &Section) -> Self {
         let Section { joints, share, cloth, .. } = *section;
-        let joints = [(joints[0], 1.0 - share), (joints[1], share), (0, 0.0)];
+        let joints = [(joints[0], 1.0 - share), (joints[1], share)];
         Self { position, normal: Vec3::ZERO, joints, cloth }
-    }
-
-    /// Lets it follow other joints, by shares that add up to 1.
-    pub(crate) fn follow(&mut self, joints: [(usize, f32); 3]) {
-        self.joints = joints;
     }
 }
 
 impl Template {
-    /// Computes the normals: of each vertex, the sum over its triangles by area. Vertices at one place share theirs.
+    /// Computes the normals of the rest pose.
     pub(crate) fn finish(mut self) -> Self {
-        for corners in &self.triangles {
-            let [a, b, c] = corners.map(|corner| self.vertices[corner as usize].position);
-            let normal = (b - a).cross(c - a);
-            for corner in corners {
-                self.vertices[*corner as usize].normal += normal;
-            }
-        }
-        for vertex in &mut self.vertices {
-            vertex.normal = vertex.normal.try_normalize().unwrap_or(Vec3::Z);
-        }
+        let positions: Vec<Vec3> = self.vertices.iter().map(|vertex| vertex.position).collect();
+        let mut normals = vec![Vec3::ZERO; positions.len()];
+        self.set_normals(&positions, &mut normals);
+        self.vertices.iter_mut().zip(normals).for_each(|(vertex, normal)| vertex.normal = normal);
         self
+    }
+
+    /// Sets the normal of each vertex at positions: the sum over its triangles by area.
+    fn set_normals(&self, positions: &[Vec3], normals: &mut [Vec3]) {
+        normals.fill(Vec3::ZERO);
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+            let normal = (b - a).cross(c - a);
+            corners.iter().for_each(|corner| normals[*corner as usize] += normal);
+        }
+        normals.iter_mut().for_each(|normal| *normal = normal.try_normalize().unwrap_or(Vec3::Z));
     }
 
     /// Appends the posed mesh.
@@ -80,7 +105,70 @@ impl Template {
             meshes.normals.push(normal);
             meshes.colours.push(colours[vertex.cloth as usize]);
         }
+        if let Some(hanging) = &self.hanging {
+            hanging.clear_legs(&self.vertices, &mut meshes.positions_m[first as usize..], joints);
+            self.set_normals(&meshes.positions_m[first as usize..], &mut meshes.normals[first as usize..]);
+        }
         meshes.triangles.extend(self.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
         meshes.owners.fill(meshes.triangles.len(), owner);
     }
+}
+
+/// A thigh from hip to knee, in the world.
+struct Thigh {
+    ends: [Vec3; 2],
+    radii: [f32; 2],
+}
+
+impl HangingCloth {
+    /// Pushes vertices out that a thigh would pass: each to the greatest distance from the middle line that a thigh has in
+    /// its direction, at its height. The cloth then holds both thighs. What is pushed out hangs higher.
+    fn clear_legs(&self, vertices: &[Vertex], positions: &mut [Vec3], joints: &[PosedJoint]) {
+        let pelvis = joints[Joint::Pelvis.index()];
+        let waist = pelvis.to_world(self.waist);
+        let thighs = [0, 1].map(|side| Thigh {
+            ends: [Joint::THIGHS[side], Joint::SHANKS[side]].map(|joint| joints[joint.index()].position),
+            radii: THIGH_M.map(|radius| radius * self.scale),
+        });
+        // The last two vertices are the middles of the caps.
+        let rings = &vertices[..vertices.len().saturating_sub(2)];
+        for (index, (vertex, position)) in rings.iter().zip(positions).enumerate() {
+            let offset = (vertex.position - self.waist).with_z(0.0);
+            let Some(outward) = (pelvis.rotation * offset).with_z(0.0).try_normalize() else { continue };
+            let thickness = if index < self.inner { 0.0 } else { self.hem };
+            let middle = pelvis.to_world(vertex.position - offset);
+            let reach = thighs.iter().map(|thigh| thigh.reach(position.z, middle, outward)).fold(0.0, f32::max);
+            let here = (*position - middle).dot(outward);
+            let loose = thighs.iter().map(|thigh| thigh.share(position.z) / LOOSE_FROM).fold(1.0, f32::min);
+            let pushed = loose * (smooth_max(here, reach + thickness, BEND_M * self.scale) - here);
+            let below = waist.z - position.z;
+            let length = (below * below - pushed * (pushed + 2.0 * FLARE_M * self.scale)).max(0.0).sqrt();
+            *position += pushed * outward + (below - length).max(0.0) * Vec3::Z;
+        }
+    }
+}
+
+impl Thigh {
+    /// Share of the thigh above a height.
+    fn share(&self, height: f32) -> f32 {
+        let [hip, knee] = self.ends;
+        ((hip.z - height) / (hip.z - knee.z).max(0.1)).clamp(0.0, 1.0)
+    }
+
+    /// Distance from a middle line to the far side of the thigh's section at a height, in a direction.
+    fn reach(&self, height: f32, middle: Vec3, outward: Vec3) -> f32 {
+        let [hip, knee] = self.ends;
+        let along = knee - hip;
+        // The section of a thigh that is swung is longer.
+        let stretch = along.length() / along.z.abs().max(0.5 * along.length());
+        let share = self.share(height);
+        let radius = stretch * (self.radii[0] + share * (self.radii[1] - self.radii[0]));
+        (hip + share * along - middle).dot(outward) + radius
+    }
+}
+
+/// The greater of two values, with a bend of a width instead of an edge; little changes where they are far apart.
+fn smooth_max(a: f32, b: f32, width: f32) -> f32 {
+    let over = (width - (a - b).abs()).max(0.0);
+    a.max(b) + over * over / (4.0 * width)
 }
