@@ -33,8 +33,17 @@ pub fn cameras_of(path: &Path, aspect: f64, outside: Outside) -> Result<Vec<Came
     Ok(cameras.iter().map(|camera| spec(camera, aspect)).collect())
 }
 
-/// The cameras of a GLB, glTF or TOML file for a recording with a view, and the size of their pictures, pixels: `size_px`,
-/// else that of the TOML file's view, if it states one.
+/// Cameras of a file, for a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherCameras {
+    /// The cameras, in the file's order.
+    pub cameras: Vec<CameraSpec>,
+    /// Size of their pictures, pixels: that of a TOML file's `[view]`; none where the file states none.
+    pub size_px: Option<[u32; 2]>,
+}
+
+/// The cameras of a GLB, glTF or TOML file for a recording with a view. `size_px` is a stated size of the pictures, before
+/// the file's and the recording's: a camera of a glTF file takes the picture's proportions from it.
 ///
 /// # Errors
 /// If the file cannot be read, or a camera breaks a rule: shown at its line.
@@ -43,18 +52,18 @@ pub fn cameras_for(
     recorded: &View,
     size_px: Option<[u32; 2]>,
     outside: Outside,
-) -> Result<(Vec<CameraSpec>, Option<[u32; 2]>), JobError> {
+) -> Result<OtherCameras, JobError> {
     let aspect = |size_px: Option<[u32; 2]>| {
         let [width, height] = size_px.unwrap_or([recorded.width, recorded.height]).map(f64::from);
         width / height
     };
     if is_camera_file(path) {
-        return Ok((cameras_of(path, aspect(size_px), outside)?, size_px));
+        return Ok(OtherCameras { cameras: cameras_of(path, aspect(size_px), outside)?, size_px: None });
     }
     let CameraFile { mut cameras, view } = read_camera_file(path)?;
-    let size_px = size_px.or(view.map(|view| [view.width, view.height]));
-    resolve_cameras(&mut cameras, aspect(size_px), path, outside)?;
-    Ok((cameras, size_px))
+    let of_file_px = view.map(|view| [view.width, view.height]);
+    resolve_cameras(&mut cameras, aspect(size_px.or(of_file_px)), path, outside)?;
+    Ok(OtherCameras { cameras, size_px: of_file_px })
 }
 
 /// Replaces the cameras of a scenario that name a file by what the file holds. Paths are relative to the scenario's file.

@@ -187,8 +187,8 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     let (mut size_px, mut other_cameras) = (*size, None);
     if let Some(path) = cameras {
         let view = &recording.header().scenario.view;
-        let (found, found_px) = camera_file::cameras_for(path, view, size_px, args.outside.into())?;
-        (other_cameras, size_px) = (Some(found), found_px);
+        let others = camera_file::cameras_for(path, view, size_px, args.outside.into())?;
+        (other_cameras, size_px) = (Some(others.cameras), size_px.or(others.size_px));
         inputs.push(path.clone());
     }
     let options = CameraOptions {
