@@ -120,10 +120,16 @@ impl Action {
     /// The motion at a time from the first frame, s, between the two frames next to it. A time beyond an end gives that
     /// end. The action must be valid.
     pub fn at(&self, time_s: f32) -> ActionFrame {
+        let ([index, next], share) = self.frames_at(time_s);
+        self.frames[index].lerp(&self.frames[next], share)
+    }
+
+    /// Indices of the two frames next to a time from the first frame, s, and the share of the second one.
+    pub(crate) fn frames_at(&self, time_s: f32) -> ([usize; 2], f32) {
         let last = self.frames.len() - 1;
         let position = (time_s * ACTION_RATE_HZ).clamp(0.0, last as f32);
         let index = (position as usize).min(last.saturating_sub(1));
-        self.frames[index].lerp(&self.frames[(index + 1).min(last)], position - index as f32)
+        ([index, (index + 1).min(last)], position - index as f32)
     }
 }
 

@@ -51,6 +51,30 @@ impl ExtraMotion {
         &self.actions[action][frame * count..][..count]
     }
 
+    /// Weighted sums of rows and frames, normalised, in place of `rotations`. The weights must sum to 1.
+    ///
+    /// ```
+    /// use glam::{Quat, Vec3};
+    /// use motiondb::body::{ExtraJoint, Side};
+    /// use motiondb::motion::{ExtraBone, ExtraMotion};
+    ///
+    /// let knuckle = ExtraBone { joint: ExtraJoint::finger(Side::Left, 1, 0), offset_m: Vec3::Y * 0.09 };
+    /// let extra = ExtraMotion { bones: vec![knuckle], ..ExtraMotion::default() };
+    /// let [open, curled] = [0.0, 0.6].map(|angle_rad| [Quat::from_rotation_x(angle_rad)]);
+    /// let mut half = Vec::new();
+    /// extra.blend([(&open[..], 0.5), (&curled[..], 0.5)], &mut half);
+    /// assert!(half[0].abs_diff_eq(Quat::from_rotation_x(0.3), 1e-6));
+    /// ```
+    pub fn blend<'a>(&self, weighted: impl IntoIterator<Item = (&'a [Quat], f32)>, rotations: &mut Vec<Quat>) {
+        rotations.clear();
+        rotations.resize(self.bones.len(), Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
+        for (row, weight) in weighted {
+            rotations.iter_mut().zip(row).for_each(|(sum, rotation)| *sum += *rotation * weight);
+        }
+        // All rows share a hemisphere, so no sum is near zero.
+        rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
+    }
+
     /// Position of a joint among those of the set; `None` where the set lacks it.
     pub fn position(&self, joint: ExtraJoint) -> Option<usize> {
         self.bones.binary_search_by_key(&joint, |bone| bone.joint).ok()

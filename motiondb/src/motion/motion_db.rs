@@ -100,6 +100,13 @@ impl MotionDb {
         self.actions.iter().filter(|action| action.kind == ActionKind::Idle)
     }
 
+    /// Rotations of the extra joints in the two frames of an action next to a time from its first frame, s, and the
+    /// shares of both.
+    pub fn extra_frames(&self, action: usize, time_s: f32) -> [(&[Quat], f32); 2] {
+        let ([index, next], share) = self.actions[action].frames_at(time_s);
+        [(self.extra.frame(action, index), 1.0 - share), (self.extra.frame(action, next), share)]
+    }
+
     /// Parameters of all examples, by index.
     pub fn parameters(&self) -> impl Iterator<Item = Parameters> {
         self.examples.iter().map(|example| example.parameters)

@@ -18,7 +18,7 @@ use crate::route::crowd_routes::RouteMemory;
 use crate::route::path::PathProgress;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::{AgentSpec, Scenario};
-use crate::synthesis::{Body, BodyOutput, Stature, SynthesisContext, Traits};
+use crate::synthesis::{Body, BodyOutput, ExtraState, Stature, SynthesisContext, Traits};
 
 /// First random stream of the starting phases; the scenario uses those below.
 const START_PHASE_STREAM: u64 = 1 << 32;
@@ -78,6 +78,8 @@ pub struct Agents {
     pub statures: Vec<Stature>,
     /// The simulated body, in the world of its own size.
     pub bodies: Vec<Body>,
+    /// Joints of the body beside the 22 roles.
+    pub extras: Vec<ExtraState>,
     /// Stance that planners read.
     pub stances: Vec<Stance>,
     /// Recorded frame, which holds the pose.
@@ -109,6 +111,7 @@ macro_rules! for_each_array {
             speed_factors,
             statures,
             bodies,
+            extras,
             stances,
             frames
         )
@@ -150,6 +153,7 @@ impl Agents {
         self.stepping_back_s.push(0.0);
         self.speed_factors.push(stature.speed_factor());
         self.statures.push(stature);
+        self.extras.push(body.extra(context));
         self.bodies.push(body);
         self.stances.push(output.stance);
         self.frames.push(frame);
@@ -164,6 +168,7 @@ impl Agents {
         self.positions_m[index] = self.statures[index].root_of_crowd(body.root).position_m;
         self.velocities_mps[index] = Vec2::ZERO;
         self.planned_mps[index] = Vec2::ZERO;
+        self.extras[index] = body.extra(context);
         self.bodies[index] = body;
         self.stances[index] = output.stance;
     }
@@ -176,12 +181,12 @@ impl Agents {
         for_each_array!(retain);
     }
 
-    /// Memory of all arrays, bytes; their elements hold no pointers.
+    /// Memory of all arrays, bytes; only the extra joints hold pointers.
     pub fn size_bytes(&self) -> usize {
         macro_rules! size {
             ($($array:ident),*) => { [$(size_of_val(&*self.$array)),*] };
         }
-        for_each_array!(size).iter().sum()
+        for_each_array!(size).iter().sum::<usize>() + self.extras.iter().map(ExtraState::size_bytes).sum::<usize>()
     }
 }
 

@@ -18,7 +18,7 @@
 
 use std::sync::Arc;
 
-use glam::Vec2;
+use glam::{Quat, Vec2};
 use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
@@ -42,7 +42,7 @@ use crate::simulation::doors::Doors;
 use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
 use crate::synthesis::library::context_of;
-use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
+use crate::synthesis::{ExtraState, HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
 use crate::world::one_way::OneWayZone;
@@ -192,6 +192,11 @@ impl Simulation {
         &self.agents.frames
     }
 
+    /// Rotations of the extra joints of each present agent, in the order of their ids and of the database's extra joints.
+    pub fn extra_rotations(&self) -> impl Iterator<Item = &[Quat]> {
+        self.agents.extras.iter().map(ExtraState::rotations)
+    }
+
     /// Memory per present agent, bytes: its elements in all arrays, its start and its waypoints.
     pub fn bytes_per_agent(&self) -> usize {
         let lives = &self.population.agents;
@@ -303,18 +308,19 @@ impl Simulation {
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
+        let bodies = bodies.zip(&mut agents.extras);
         let written = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
         let read = agents.plans.par_iter().zip(&agents.statures).zip(&agents.styles);
         let read = read.zip(&agents.wall_radii_m).zip(&agents.closed_zones);
         written.zip(read).for_each(|(written, read)| {
-            let (((body, stance), frame), is_between_steps) = written;
+            let ((((body, extra), stance), frame), is_between_steps) = written;
             let ((((plan, stature), &style), &wall_radius_m), &closed_zones) = read;
             let context = context_of(contexts, style);
             let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
             let (plan, step) = (&stature.plan_of_body(plan), &stature.step_of_body(&time_step));
             let from = body.root;
             match coupling {
-                Coupling::TwoWay => body.advance(context, plan, step),
+                Coupling::TwoWay => body.advance_with(extra, context, plan, step),
                 Coupling::Discs | Coupling::Decoupled => {
                     body.root = body_to_disc::as_planned(from, plan, step.dt_s);
                 }
@@ -327,6 +333,7 @@ impl Simulation {
                 Coupling::Decoupled => decoupled::follow(body, context, from, step.dt_s),
                 Coupling::Discs => return,
             };
+            body.pose_extra(extra, context);
             let output = stature.output_of_crowd(&output);
             *stance = output.stance;
             *is_between_steps = are_between_steps(frame.contacts, output.contacts);

@@ -7,8 +7,10 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
-use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Skeleton};
-use motiondb::motion::{Correspondence, ExtraMotion, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::body::{ExtraJoint, Foot, JOINT_COUNT, Joint, Pose, Side, Skeleton};
+use motiondb::motion::{
+    Correspondence, ExtraBone, ExtraMotion, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows,
+};
 use motiondb::velocity_sets::velocity_hull::{self, Construction, VelocityHull};
 
 use crate::synthesis::pose::ik::reach;
@@ -66,6 +68,27 @@ pub(crate) fn test_db() -> MotionDb {
     db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
     db.correspondence = Correspondence::of(&db, SEMI_PROCEDURAL);
     db
+}
+
+/// The database with two joints of the left index finger, which curl by [`curl_rad`].
+pub(crate) fn db_with_fingers() -> MotionDb {
+    let mut db = test_db();
+    let bone = |joint: usize| ExtraBone { joint: ExtraJoint::finger(Side::Left, 1, joint), offset_m: Vec3::Y * 0.04 };
+    db.extra.bones = [0, 1].map(bone).to_vec();
+    let row = |example: usize, row: usize| curled(curl_rad(example, row as f32 / PHASE_COUNT as f32));
+    let examples = 0..db.examples.len();
+    db.extra.rotations = examples.flat_map(|example| (0..PHASE_COUNT).flat_map(move |at| row(example, at))).collect();
+    db
+}
+
+/// Curl of the fingers of an example at a phase, rad: each example has a mean of its own.
+pub(crate) fn curl_rad(example: usize, phase: f32) -> f32 {
+    -0.2 - 0.1 * example as f32 - 0.15 * libm::sinf(TAU * phase)
+}
+
+/// Two finger joints that curl alike.
+pub(crate) fn curled(angle_rad: f32) -> [Quat; 2] {
+    [Quat::from_rotation_x(angle_rad); 2]
 }
 
 fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3], period_s: f32) -> MotionExample {

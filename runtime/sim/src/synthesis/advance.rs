@@ -10,7 +10,7 @@ use motiondb::motion::Parameters;
 use crate::maths::arc::moved_root;
 use crate::planning::plan::Plan;
 use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase, stance_foot};
-use crate::synthesis::hybrid::MotionState;
+use crate::synthesis::hybrid::{ExtraState, MotionState};
 use crate::synthesis::pose::ContactState;
 use crate::synthesis::{Body, Mode, SynthesisContext, TimeStep};
 
@@ -18,6 +18,12 @@ impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
     /// ([`place_root`](Self::place_root)) before [`synthesize`](Self::synthesize).
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
+        self.advance_with(&mut ExtraState::default(), context, plan, step);
+    }
+
+    /// Follows a plan over one step as [`advance`](Self::advance) does; where the motion jumps, the extra joints of the
+    /// body do not. Their rotations follow with [`pose_extra`](Self::pose_extra).
+    pub fn advance_with(&mut self, extra: &mut ExtraState, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
         let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, squeeze, weight_shift } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
@@ -27,9 +33,9 @@ impl Body {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             let stance = stance_foot(phase);
             if let Some(action) = context.starts.fitting(command.filter.command, 1 - stance) {
-                motion.begin_transition(action, context, step);
+                motion.begin_transition(extra, action, context, step);
             } else {
-                motion.jump(context, step, |motion| motion.phase = phase);
+                motion.jump(extra, context, step, |motion| motion.phase = phase);
                 weight_shift.begin(stance);
             }
         }
@@ -44,11 +50,12 @@ impl Body {
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
-        motion.end_transition(command.step_state.stands, context, step);
+        extra.decay(step);
+        motion.end_transition(extra, command.step_state.stands, context, step);
         motion.select(&plan, command.step_state.walks_on(&reachable), context, step.dt_s);
-        motion.switch(phase_before, context, step);
+        motion.switch(extra, phase_before, context, step);
         if reverses {
-            motion.jump(context, step, MotionState::reverse);
+            motion.jump(extra, context, step, MotionState::reverse);
         }
         look_at.follow(&plan, root.facing_rad, step);
         let drawn = motion.drawn_parameters(&context.db);

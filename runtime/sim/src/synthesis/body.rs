@@ -6,7 +6,7 @@ use motiondb::body::{Pose, Root};
 use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
-use crate::synthesis::hybrid::MotionState;
+use crate::synthesis::hybrid::{ExtraState, MotionState};
 use crate::synthesis::pose::{ContactState, Lean, LookAt, SecondaryMotion, Squeeze, WeightShift};
 
 /// A simulated body.
@@ -79,6 +79,16 @@ impl Body {
     pub fn place_root(&mut self, from_m: Vec2, root: Root, dt_s: f32) {
         self.actual_mps = (root.position_m - from_m) / dt_s;
         self.root = root;
+    }
+
+    /// The joints beside the 22 roles, as the body stands or moves now; none where the database has none.
+    pub fn extra(&self, context: &SynthesisContext) -> ExtraState {
+        ExtraState::of(&self.motion, context)
+    }
+
+    /// Poses the extra joints at the present phase.
+    pub fn pose_extra(&self, extra: &mut ExtraState, context: &SynthesisContext) {
+        extra.follow(&self.motion, context);
     }
 
     /// Velocity that replaces the planned one, world, m/s: that of m_mb in the paper's transition between the

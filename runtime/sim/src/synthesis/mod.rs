@@ -24,6 +24,9 @@
 //!     pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
 //!
+//! Joints beside the 22 roles have no stage of their own: `extra_state` blends them by the weights of the pose, and
+//! keeps what a switch has left of them.
+//!
 //! # Names
 //!
 //! | quantity | name |
@@ -70,6 +73,7 @@ pub(crate) mod traits;
 pub(crate) mod walk_alone;
 
 pub use body::{Body, BodyOutput};
+pub use hybrid::ExtraState;
 pub use library::SynthesisContext;
 pub use mode::{Mode, Modes};
 pub use params::{HmsParams, Transition};

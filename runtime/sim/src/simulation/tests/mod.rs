@@ -12,7 +12,7 @@ use crate::planning::planner::Planner;
 use crate::scenario::{AgentSpec, parse};
 use crate::synthesis::Mode;
 use crate::synthesis::blending::BlendDomain;
-use crate::test_db::test_db;
+use crate::test_db::{db_with_fingers, test_db};
 
 mod behaviour;
 mod closed_in;
@@ -83,6 +83,24 @@ fn one_and_two_threads_give_equal_bits() {
         }
         assert!(simulations[0].frames() == simulations[1].frames(), "step {step}");
     }
+}
+
+#[test]
+fn extra_joints_are_equal_for_any_number_of_threads() {
+    let scenario = antipodal(60, 8.0);
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let played = |db: MotionDb, threads: usize| {
+        let mut simulation = Simulation::new(Arc::new(db), &scenario);
+        pool(threads).install(|| (0..240).for_each(|_| simulation.step(&mut |_| {})));
+        let rotations: Vec<Vec<Quat>> = simulation.extra_rotations().map(<[Quat]>::to_vec).collect();
+        (simulation.frames().to_vec(), rotations)
+    };
+    let [one, three] = [1, 3].map(|threads| played(db_with_fingers(), threads));
+    assert_eq!(one, three);
+    assert!(one.1.iter().all(|rotations| rotations.len() == 2) && one.1[0] != one.1[1]);
+    // The poses are those of a database without them.
+    let (frames, rotations) = played(test_db(), 2);
+    assert!(frames == one.0 && rotations.iter().all(Vec::is_empty));
 }
 
 #[test]

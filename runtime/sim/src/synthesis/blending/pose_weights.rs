@@ -2,6 +2,7 @@
 //!
 //! Poses are weighted sums of stored rows, linear between two rows. Frames: [`motiondb::body`].
 
+use glam::Quat;
 use motiondb::body::Pose;
 use motiondb::motion::{MotionDb, PHASE_COUNT};
 
@@ -37,14 +38,28 @@ impl PoseWeights {
     /// The blended pose, in which the pose of an idle takes the place of the examples that stand; `idle` gives it where
     /// any does.
     pub(crate) fn pose_with_idle(&self, db: &MotionDb, phase: f32, idle: impl FnOnce() -> Option<Pose>) -> Pose {
-        let stands = |example: u32| db.examples[example as usize].key_times_s.is_none();
-        let standing: f32 = self.entries().iter().filter(|entry| stands(entry.0)).map(|&(_, weight)| weight).sum();
+        let standing: f32 = self.entries().iter().filter(|entry| stands(db, entry.0)).map(|&(_, weight)| weight).sum();
         let Some(idle) = (standing > 0.0).then(idle).flatten() else { return self.pose(db, phase) };
         let (rows, shares) = rows_at(phase);
-        let steps = self.entries().iter().filter(|entry| !stands(entry.0));
+        let steps = self.entries().iter().filter(|entry| !stands(db, entry.0));
         let rows =
             steps.flat_map(|&(example, weight)| [0, 1].map(|row| (example as usize, rows[row], weight * shares[row])));
         db.rows.blended_with(&idle, standing, rows)
+    }
+
+    /// Rows of the extra joints and their weights; the frames of an idle take the place of the examples that stand.
+    pub(crate) fn extra_rows<'a>(
+        &'a self,
+        db: &'a MotionDb,
+        phase: f32,
+        idle: Option<[(&'a [Quat], f32); 2]>,
+    ) -> impl Iterator<Item = (&'a [Quat], f32)> {
+        let (rows, shares) = rows_at(phase);
+        self.entries().iter().flat_map(move |&(example, weight)| {
+            let row = |index: usize| (db.extra.row(example as usize, rows[index]), shares[index]);
+            let parts = idle.filter(|_| stands(db, example)).unwrap_or_else(|| [0, 1].map(row));
+            parts.map(|(rotations, share)| (rotations, weight * share))
+        })
     }
 
     /// The blended contact Σ w_i·c_i of each foot, `[left, right]`.
@@ -79,6 +94,11 @@ impl PoseWeights {
     pub(crate) fn examples_slide_cm_s(&self, db: &MotionDb) -> f32 {
         self.entries().iter().map(|&(example, weight)| weight * db.examples[example as usize].planted_slide_cm_s).sum()
     }
+}
+
+/// Whether an example stands.
+fn stands(db: &MotionDb, example: u32) -> bool {
+    db.examples[example as usize].key_times_s.is_none()
 }
 
 /// The two stored rows next to a phase, and their shares.

@@ -2,6 +2,8 @@
 //!
 //! Root frame (x forward, y left, z up), metres; seconds.
 
+use glam::Quat;
+
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::blending::PoseWeights;
@@ -52,6 +54,18 @@ impl ActiveMotion<'_> {
                 let frame = played.at(db, phase);
                 Posture::new(frame.pose, frame.contacts, &db.skeleton)
             }
+        }
+    }
+
+    /// Rotations of the extra joints, in place of `rotations`.
+    pub(crate) fn blend_extra(&self, context: &SynthesisContext, phase: f32, rotations: &mut Vec<Quat>) {
+        let (db, extra) = (&context.db, &context.db.extra);
+        match self {
+            Self::Blending { drawn, idle, .. } => {
+                extra.blend(drawn.extra_rows(db, phase, idle.extra_frames(db)), rotations);
+            }
+            Self::SemiProcedural(deformation) => extra.blend(deformation.extra_rows(db, phase), rotations),
+            Self::Transition(played) => extra.blend(played.extra_frames(db, phase), rotations),
         }
     }
 

@@ -4,6 +4,7 @@
 //! in every mix, so that a body enters and leaves it as the shares change. One draw gives each body an idle and a start
 //! of its own. The clock runs on while the body walks: no two rests begin alike. Seconds.
 
+use glam::Quat;
 use motiondb::body::Pose;
 use motiondb::motion::MotionDb;
 
@@ -37,6 +38,12 @@ impl IdleClock {
     /// The pose in the root frame; `None` where the database has no idle.
     pub(crate) fn pose(&self, db: &MotionDb) -> Option<Pose> {
         db.idles().nth(self.idle as usize).map(|idle| idle.at(self.time_s).pose)
+    }
+
+    /// Frames of the extra joints and their shares; `None` where the database has no idle.
+    pub(crate) fn extra_frames<'a>(&self, db: &'a MotionDb) -> Option<[(&'a [Quat], f32); 2]> {
+        let idle = self.idle as usize;
+        (idle < db.idles().count()).then(|| db.extra_frames(idle, self.time_s))
     }
 }
 

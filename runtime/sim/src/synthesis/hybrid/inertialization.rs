@@ -13,7 +13,7 @@ use crate::maths::angle::rotation;
 use crate::synthesis::TimeStep;
 
 /// Difference, and rate of change, below which inertialization ends, m and rad, per second.
-const NEGLIGIBLE: f32 = 1e-4;
+pub(super) const NEGLIGIBLE: f32 = 1e-4;
 
 /// A difference of two poses: offset of the pelvis, m, then the rotation vector of each joint, rad. Plain numbers let
 /// the compiler emit vector instructions.
@@ -107,7 +107,7 @@ impl PoseDifference {
 }
 
 /// The rotation vector of the shorter turn, rad.
-fn rotation_vector(turn: Quat) -> Vec3 {
+pub(super) fn rotation_vector(turn: Quat) -> Vec3 {
     if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis()
 }
 

@@ -9,6 +9,7 @@
 //! a body that starts as in a clip.
 
 pub(crate) mod active_motion;
+pub(crate) mod extra_state;
 pub(crate) mod idle_clock;
 pub(crate) mod inertialization;
 pub(crate) mod mode_selection;
@@ -19,6 +20,7 @@ pub(crate) mod step_timing;
 pub(crate) mod switching;
 
 pub(crate) use active_motion::ActiveMotion;
+pub use extra_state::ExtraState;
 pub(crate) use inertialization::Inertialization;
 pub use motion_state::MotionState;
 pub use pose_smoothing::SmoothedMotion;

@@ -3,7 +3,7 @@
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
 use glam::Vec2;
-use motiondb::body::Root;
+use motiondb::body::{Pose, Root};
 use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::blending::example_mix::advanced_phase;
@@ -51,6 +51,21 @@ pub struct MotionState {
     pub(crate) traits: Traits,
     /// Difference of poses that a switch has left.
     pub(crate) inertialization: Inertialization,
+}
+
+/// The drawn motion at one time.
+pub(crate) struct Moment<'a> {
+    /// The active motion.
+    pub(crate) active: ActiveMotion<'a>,
+    /// φ.
+    pub(crate) phase: f32,
+}
+
+impl Moment<'_> {
+    /// The pose with its legs bent to the targets of the feet.
+    pub(crate) fn pose(&self, context: &SynthesisContext) -> Pose {
+        self.active.bent_posture(context, self.phase).pose
+    }
 }
 
 impl MotionState {

@@ -16,7 +16,7 @@
 //!
 //! [`StepTiming`]: crate::synthesis::hybrid::step_timing::StepTiming
 
-use glam::Vec2;
+use glam::{Quat, Vec2};
 use motiondb::motion::{ACTION_RATE_HZ, Action, ActionFrame, MotionDb, MotionExample, wrapped};
 
 use crate::planning::plan::PLANTED_CONTACT;
@@ -73,8 +73,18 @@ impl PlayedTransition {
 
     /// The motion at a phase, at most half a cycle from the present one.
     pub(crate) fn at(&self, db: &MotionDb, phase: f32) -> ActionFrame {
+        self.action(db).at(self.time_at_s(db, phase))
+    }
+
+    /// Frames of the extra joints at such a phase, and their shares.
+    pub(crate) fn extra_frames<'a>(&self, db: &'a MotionDb, phase: f32) -> [(&'a [Quat], f32); 2] {
+        db.extra_frames(self.action as usize, self.time_at_s(db, phase))
+    }
+
+    /// Time in the clip at a phase, at most half a cycle from the present one, s.
+    fn time_at_s(&self, db: &MotionDb, phase: f32) -> f32 {
         let cycles = phase - self.phase(db);
-        self.action(db).at(self.time_s + (cycles - cycles.round()) * self.period_s(db))
+        self.time_s + (cycles - cycles.round()) * self.period_s(db)
     }
 
     /// The pace of the clip, given the velocity of the body's root and the lead of the drawn body over it, in the root's

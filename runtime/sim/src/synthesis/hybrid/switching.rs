@@ -4,13 +4,13 @@
 //! Root frame (x forward, y left, z up), metres; parameters in m/s and rad/s.
 
 use glam::Vec3;
-use motiondb::body::Pose;
 use motiondb::motion::{Parameters, wrapped};
 
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::ExampleMix;
+use crate::synthesis::hybrid::extra_state::ExtraState;
 use crate::synthesis::hybrid::mode_selection::ModeThresholds;
-use crate::synthesis::hybrid::motion_state::MotionState;
+use crate::synthesis::hybrid::motion_state::{Moment, MotionState};
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::library::HybridData;
 use crate::synthesis::{HmsParams, Mode, SynthesisContext, TimeStep, Transition};
@@ -49,7 +49,13 @@ impl MotionState {
     /// The body keeps its velocity, and inertialization carries the difference of poses. The paper first moves the
     /// weights to m_mb alone ([`Transition::ThroughMMb`]), so at the very moment that a collision threatens its body
     /// walks at the velocity of m_mb.
-    pub(crate) fn switch(&mut self, phase_before: f32, context: &SynthesisContext, step: &TimeStep) {
+    pub(crate) fn switch(
+        &mut self,
+        extra: &mut ExtraState,
+        phase_before: f32,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
         let (from, to) = (self.mode, self.selection.mode);
         let Some(hybrid) = context.hybrid.as_ref().filter(|_| self.changes_mode()) else { return };
         let Some(phase_jump) = hybrid.phase_jump(from, phase_before, self.phase) else { return };
@@ -57,7 +63,7 @@ impl MotionState {
             return;
         }
         let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
-        self.jump(context, step, |motion| {
+        self.jump(extra, context, step, |motion| {
             motion.take_over(to, context);
             let phases = PHASE_OFFSETS.map(|offset| wrapped(motion.phase + phase_jump + offset));
             motion.phase = motion.most_similar_phase(&soles_m, phases, context);
@@ -112,9 +118,15 @@ impl MotionState {
     }
 
     /// Begins a recorded transition, which gives the pose from now on.
-    pub(crate) fn begin_transition(&mut self, action: u32, context: &SynthesisContext, step: &TimeStep) {
+    pub(crate) fn begin_transition(
+        &mut self,
+        extra: &mut ExtraState,
+        action: u32,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
         let played = PlayedTransition::begin(action);
-        self.jump(context, step, |motion| {
+        self.jump(extra, context, step, |motion| {
             (motion.mode, motion.transition) = (Mode::Transition, Some(played));
             motion.phase = played.phase(&context.db);
         });
@@ -122,14 +134,20 @@ impl MotionState {
 
     /// Ends the recorded transition: at its end, where the body would be drawn too far from its root, and where the body
     /// stands. The cycle goes on, at the phase of the clip or, before its end, of the most similar pose.
-    pub(crate) fn end_transition(&mut self, stands: bool, context: &SynthesisContext, step: &TimeStep) {
+    pub(crate) fn end_transition(
+        &mut self,
+        extra: &mut ExtraState,
+        stands: bool,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
         let Some(played) = self.transition else { return };
         let is_over = played.is_over(&context.db);
         if !(is_over || stands || self.timing.leads_too_far()) {
             return;
         }
         let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
-        self.jump(context, step, |motion| {
+        self.jump(extra, context, step, |motion| {
             (motion.mode, motion.transition) = (Mode::Blending, None);
             if !is_over {
                 let phases = (0..CYCLE_PHASES).map(|index| f32::from(index) / f32::from(CYCLE_PHASES));
@@ -146,17 +164,25 @@ impl MotionState {
         self.smoothed[0].reverse();
     }
 
-    /// Makes a change at once and leaves the difference of poses to inertialization.
-    pub(crate) fn jump(&mut self, context: &SynthesisContext, step: &TimeStep, change: impl FnOnce(&mut Self)) {
-        let old = self.poses(context, step);
+    /// Makes a change at once and leaves the difference of poses to inertialization, that of the extra joints to `extra`.
+    pub(crate) fn jump(
+        &mut self,
+        extra: &mut ExtraState,
+        context: &SynthesisContext,
+        step: &TimeStep,
+        change: impl FnOnce(&mut Self),
+    ) {
+        let old = self.moments(context, step);
         change(self);
         self.has_jumped = true;
-        let new = self.poses(context, step);
-        self.inertialization.begin(old.each_ref(), new.each_ref(), step.look_back_s);
+        let new = self.moments(context, step);
+        let [old_poses, new_poses] = [&old, &new].map(|moments| moments.each_ref().map(|moment| moment.pose(context)));
+        self.inertialization.begin(old_poses.each_ref(), new_poses.each_ref(), step.look_back_s);
+        extra.begin(&old, &new, context, step.look_back_s);
     }
 
-    /// The drawn poses, now and [`TimeStep::look_back_s`] before.
-    fn poses(&self, context: &SynthesisContext, step: &TimeStep) -> [Pose; 2] {
+    /// The drawn motion, now and [`TimeStep::look_back_s`] before.
+    fn moments<'a>(&self, context: &'a SynthesisContext, step: &TimeStep) -> [Moment<'a>; 2] {
         let active = self.active(context);
         let earlier_phase =
             wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(context, self.phase));
@@ -165,6 +191,6 @@ impl MotionState {
         let mut earlier_idle = self.idle;
         earlier_idle.advance(&context.db, -step.look_back_s);
         let earlier = self.drawn(context, &smoothed, earlier_idle, earlier_phase);
-        [active.bent_posture(context, self.phase).pose, earlier.bent_posture(context, earlier_phase).pose]
+        [Moment { active, phase: self.phase }, Moment { active: earlier, phase: earlier_phase }]
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use motiondb::blend_space::triangulation;
-use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
+use motiondb::motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters};
 use motiondb::quality::coverage::{GapKind, coverage};
 use motiondb::quality::planted_feet::foot_slide;
 use motiondb::validate::contradiction;
@@ -96,8 +96,12 @@ fn push_deformed(db: &mut MotionDb, base_walk: &BaseWalk, ratios: Vec3) {
         planted_share: slide.planted_share as f32,
         ..m_sp.clone()
     };
+    let mut rotations = Vec::new();
     for (row, posture) in cycle.iter().enumerate() {
         db.rows.push_like((base_walk.example, row), &posture.pose, posture.contacts);
+        let phase = row as f32 / PHASE_COUNT as f32;
+        db.extra.blend(deformation.extra_rows(db, phase), &mut rotations);
+        db.extra.rotations.append(&mut rotations);
     }
     db.examples.push(example);
 }

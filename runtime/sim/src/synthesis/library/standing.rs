@@ -33,8 +33,12 @@ fn slowest(db: &MotionDb) -> Option<usize> {
 fn with_standing_as_in(db: &MotionDb, example: usize) -> MotionDb {
     let mut db = db.clone();
     let pose = standing_pose(&db, example);
+    let mut mean = Vec::new();
+    let rows = (0..PHASE_COUNT).map(|phase| (db.extra.row(example, phase), 1.0 / PHASE_COUNT as f32));
+    db.extra.blend(rows, &mut mean);
     for _ in 0..PHASE_COUNT {
         db.rows.push_like((example, 0), &pose, [1.0; 2]);
+        db.extra.rotations.extend(&mean);
     }
     let steps = &db.examples[example];
     db.examples.push(MotionExample {

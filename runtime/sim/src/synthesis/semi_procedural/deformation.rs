@@ -201,6 +201,11 @@ impl<'a> Deformation<'a> {
         posture
     }
 
+    /// Rows of the extra joints of m_sp, in forward and in reversed time, and their weights.
+    pub(crate) fn extra_rows<'db>(&self, db: &'db MotionDb, phase: f32) -> [(&'db [Quat], f32); 4] {
+        self.instant(phase).rows().map(|(row, weight)| (db.extra.row(self.tempo.base.example, row), weight))
+    }
+
     /// Target of a foot, and its yaw, rad.
     fn foot(&self, skeleton: &Skeleton, contact: f32, instant: &Instant, side: usize) -> (FootPose, f32) {
         let mut foot = self.mixed_foot(instant, side);
