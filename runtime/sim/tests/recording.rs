@@ -8,9 +8,11 @@ use std::path::Path;
 use common::{agent, folder, header, numbered, record, standing_at};
 use fbcrowd_sim::behaviour::Area;
 use fbcrowd_sim::population::Population;
-use fbcrowd_sim::recording::{AgentFrame, Recorder, Recording, RecordingError, write_chunk};
+use fbcrowd_sim::recording::{
+    AgentFrame, Header, RecordedExtraJoint, Recorder, Recording, RecordingError, write_chunk,
+};
 use fbcrowd_sim::scenario::{Marking, MarkingColour, MarkingShape};
-use glam::{Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 use motiondb::body::Joints;
 use proptest::prelude::*;
 
@@ -151,6 +153,89 @@ fn with_text(bytes: &[u8], kind: [u8; 4], change: impl Fn(&str) -> String) -> Ve
     let text = change(&common::unzipped(payload));
     *payload = common::zipped(text.as_bytes());
     common::file_of(&payloads)
+}
+
+/// A recording of two agents with two finger joints, and the rotations that were recorded.
+fn with_fingers(path: &Path) -> (Recording, Vec<Vec<Quat>>) {
+    let joint = |name: &str| RecordedExtraJoint { name: name.to_owned(), offset_m: Vec3::Y * 0.04 };
+    let extra_joints = ["left_index_1", "left_index_2"].map(joint).to_vec();
+    let header = Header { extra_joints, ..two_agents() };
+    let mut recorder = Recorder::create(path, &header).unwrap();
+    let curl = |frame: usize| (0..4).map(move |joint| Quat::from_rotation_x(-0.1 * (frame * 4 + joint) as f32));
+    let rotations: Vec<Vec<Quat>> = (0..5).map(|frame| curl(frame).collect()).collect();
+    for (frame, rotations) in frames(5).iter().zip(&rotations) {
+        recorder.push_with_extra(&numbered(frame), rotations.chunks(2)).unwrap();
+    }
+    recorder.finish(&Population::of(&header.scenario)).unwrap();
+    let recording = Recording::open(path).unwrap();
+    assert_eq!(recording.header(), &header);
+    (recording, rotations)
+}
+
+#[test]
+fn extra_joints_come_back_in_any_order() {
+    let (recording, written) = with_fingers(&folder("extra").join("a.fbrec"));
+    let (mut rotations, mut agents) = (Vec::new(), Vec::new());
+    for frame in [3, 0, 4] {
+        recording.read_extra(frame, &mut rotations).unwrap();
+        assert_eq!(rotations.len(), 4);
+        let pairs = rotations.iter().zip(&written[frame]);
+        assert!(pairs.into_iter().all(|(read, written)| read.angle_between(*written) < 2e-3), "{rotations:?}");
+        recording.read_frame(frame, &mut agents).unwrap();
+        assert_eq!(agents.len(), 2);
+    }
+    assert!(matches!(recording.read_extra(5, &mut rotations), Err(RecordingError::NoSuchFrame { .. })));
+}
+
+#[test]
+fn a_reader_without_extra_joints_reads_the_same_bodies() {
+    let (with, without) = (folder("extra_skipped").join("a.fbrec"), folder("extra_none").join("a.fbrec"));
+    with_fingers(&with);
+    let recording = record(&without, &two_agents(), &frames(5));
+    // Such a reader ignores the key and the chunks.
+    let text = |text: &str| {
+        let start = text.find(",\"extra_joints\"").unwrap();
+        let end = text[start + 1..].find("],\"scenario\"").unwrap() + start + 2;
+        format!("{}{}", &text[..start], &text[end..])
+    };
+    let stripped = with_text(&fs::read(&with).unwrap(), *b"HEAD", text);
+    fs::write(&with, stripped).unwrap();
+    assert_eq!(read_all(&with).unwrap(), read_all(&without).unwrap());
+    let bytes = fs::read(&without).unwrap();
+    assert!(!bytes.windows(4).any(|window| window == b"EXTR"));
+    let mut rotations = vec![Quat::IDENTITY];
+    recording.read_extra(0, &mut rotations).unwrap();
+    assert!(rotations.is_empty());
+}
+
+#[test]
+fn extra_joints_of_another_frame_are_rejected() {
+    let path = folder("extra_lost").join("a.fbrec");
+    with_fingers(&path);
+    let mut chunks = common::chunks(&fs::read(&path).unwrap());
+    let first = chunks.iter().position(|(kind, _)| kind == b"EXTR").unwrap();
+    // A frame lies between two chunks of extra joints.
+    chunks.swap(first, first + 2);
+    fs::write(&path, common::file_of(&chunks)).unwrap();
+    let message = Recording::open(&path).unwrap().read_extra(0, &mut Vec::new()).unwrap_err().to_string();
+    assert!(message.contains("this is not frame 0"), "{message}");
+    chunks.remove(first);
+    fs::write(&path, common::file_of(&chunks)).unwrap();
+    let message = Recording::open(&path).unwrap_err().to_string();
+    assert!(message.contains("does not name the extra joints of each frame"), "{message}");
+}
+
+#[test]
+fn a_frame_without_the_extra_joints_of_the_header_is_rejected() {
+    let joint = RecordedExtraJoint { name: "left_index_1".into(), offset_m: Vec3::Y * 0.04 };
+    let header = Header { extra_joints: vec![joint], ..two_agents() };
+    let path = folder("extra_missing").join("a.fbrec");
+    let message = Recorder::create(&path, &header).unwrap().push(&numbered(&frames(1)[0])).unwrap_err().to_string();
+    assert!(message.contains("agent 0 has 0 extra joints, but the header lists 1"), "{message}");
+    let far = RecordedExtraJoint { name: "left_index_1".into(), offset_m: Vec3::Y * 400.0 };
+    let header = Header { extra_joints: vec![far], ..two_agents() };
+    let message = Recorder::create(&path, &header).unwrap_err().to_string();
+    assert!(message.contains("an extra joint is out of range"), "{message}");
 }
 
 #[test]

@@ -94,19 +94,20 @@ impl PreparedSimulation {
     pub fn record(self, database_checksum: u32, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
         let Self { scenario, mut simulation, character_checksums } = self;
         let steps = scenario.steps();
-        let mut header = Header::new(simulation.database(), database_checksum, scenario);
+        let db = simulation.database();
+        let mut header = Header::new(db, database_checksum, scenario).with_extra_joints(db);
         for (character, checksum) in header.characters.iter_mut().zip(character_checksums) {
             character.checksum = checksum;
         }
         let mut recorder = Recorder::create(recording, &header)?;
-        recorder.push(simulation.frames())?;
+        recorder.push_with_extra(simulation.frames(), simulation.extra_rotations())?;
         let (mut stopwatch, mut agent_steps) = (StepStopwatch::default(), 0);
         let work = Work::begin(observer, "steps", steps);
         for _ in 0..steps {
             stopwatch.start();
             simulation.step(&mut |stage| stopwatch.lap(stage));
             check_transitions(&simulation, &header)?;
-            recorder.push(simulation.frames())?;
+            recorder.push_with_extra(simulation.frames(), simulation.extra_rotations())?;
             agent_steps += simulation.frames().len();
             work.advance();
         }

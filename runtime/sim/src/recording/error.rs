@@ -107,6 +107,20 @@ pub enum RecordingError {
         /// Id of the agent.
         agent: usize,
     },
+    /// An agent to be recorded has other extra joints than the header lists.
+    #[error("{}: frame {frame}: agent {agent} has {found} extra joints, but the header lists {expected}", path.display())]
+    ExtraJointCount {
+        /// The recording.
+        path: PathBuf,
+        /// Index of the frame.
+        frame: usize,
+        /// Id of the agent.
+        agent: usize,
+        /// Number of extra joints of the agent.
+        found: usize,
+        /// Number of extra joints in the header.
+        expected: usize,
+    },
     /// A frame to be recorded holds a value that is not finite, or beyond all scenarios.
     #[error("{}: frame {frame}: agent {agent} is not finite: the simulation is broken, not its input", path.display())]
     NotFinite {

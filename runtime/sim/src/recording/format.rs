@@ -22,6 +22,8 @@ pub(crate) const INDEX_ENTRY_BYTES: usize = 12;
 pub(crate) const HEAD: ChunkKind = *b"HEAD";
 /// Chunk of one frame.
 pub(crate) const FRAME: ChunkKind = *b"FRAM";
+/// Chunk of the extra joints in one frame.
+pub(crate) const EXTRA: ChunkKind = *b"EXTR";
 /// Chunk of all agents.
 pub(crate) const AGENTS: ChunkKind = *b"AGNT";
 /// Chunk of the index.

@@ -5,21 +5,28 @@
 //! of its behaviour state, u16; the 200 bytes of `frame_packing`. Of a crowd without gaps all ids are 0 so, which zlib
 //! reduces to nothing. Transposed, the bytes of equal meaning of neighbouring agents stand side by side, which makes the
 //! result a twelfth smaller. Version 1 has neither number, ids nor states, and rows of 200 bytes.
+//!
+//! The chunk of a frame's extra joints has the same form; a row holds 6 bytes for each joint (`rotation_packing`).
 
 use std::io::{self, Read, Write};
 
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 
+use glam::Quat;
+
 use crate::population::AgentId;
 use crate::recording::frame::AgentFrame;
 use crate::recording::frame_packing::{FrameFault, PACKED_BYTES, pack, unpack};
+use crate::recording::rotation_packing::{COARSE_BITS, pack_rotation, packed_rotation_bytes, unpack_rotation};
 use crate::scenario::ranges::AGENTS_MAX;
 
 /// Bytes of a row before its packed agent.
 const KEY_BYTES: usize = 6;
 /// Bytes of a row.
 pub(crate) const ROW_BYTES: usize = KEY_BYTES + PACKED_BYTES;
+/// Bytes of an extra joint.
+pub(crate) const EXTRA_JOINT_BYTES: usize = packed_rotation_bytes(COARSE_BITS);
 /// Greatest length of data, relative to its compressed bytes: the limit of deflate.
 const DEFLATE_RATIO_MAX: usize = 1_032;
 
@@ -41,20 +48,44 @@ pub(crate) fn append_row(agent: &AgentFrame, before: Option<AgentId>, rows: &mut
     pack(agent, rows)
 }
 
-/// The payload of a frame with these rows; the encoder is kept from frame to frame.
-pub(crate) fn compress(number: u32, zlib: &mut ZlibEncoder<Vec<u8>>, rows: &[u8]) -> io::Result<Vec<u8>> {
+/// Appends the row of an agent's extra joints. None where a rotation is not finite.
+pub(crate) fn append_extra_row(rotations: &[Quat], rows: &mut Vec<u8>) -> Option<()> {
+    for rotation in rotations {
+        let packed = rotation.is_finite().then(|| pack_rotation(*rotation, COARSE_BITS))?;
+        rows.extend(&packed.to_le_bytes()[..EXTRA_JOINT_BYTES]);
+    }
+    Some(())
+}
+
+/// The rotations of extra joints in any number of rows: the inverse of [`append_extra_row`].
+pub(crate) fn read_extra_rows(rows: &[u8]) -> impl Iterator<Item = Quat> {
+    rows.chunks_exact(EXTRA_JOINT_BYTES).map(|packed| {
+        let mut wide = [0; 8];
+        wide[..packed.len()].copy_from_slice(packed);
+        unpack_rotation(u64::from_le_bytes(wide), COARSE_BITS)
+    })
+}
+
+/// The payload of a frame with these rows of `row_bytes` bytes; the encoder is kept from frame to frame.
+pub(crate) fn compress(
+    number: u32,
+    zlib: &mut ZlibEncoder<Vec<u8>>,
+    rows: &[u8],
+    row_bytes: usize,
+) -> io::Result<Vec<u8>> {
     zlib.get_mut().extend(number.to_le_bytes());
-    zlib.get_mut().extend(((rows.len() / ROW_BYTES) as u32).to_le_bytes());
-    zlib.write_all(&transpose(rows, ROW_BYTES))?;
+    zlib.get_mut().extend(((rows.len() / row_bytes) as u32).to_le_bytes());
+    zlib.write_all(&transpose(rows, row_bytes))?;
     zlib.reset(Vec::new())
 }
 
-/// The start of a frame's payload, and the compressed rows; none where it has fewer bytes than its agents need.
-pub(crate) fn start(payload: &[u8]) -> Option<(FrameStart, &[u8])> {
+/// The start of a frame's payload, and the compressed rows of `row_bytes` bytes; none where it has fewer bytes than its
+/// agents need.
+pub(crate) fn start(payload: &[u8], row_bytes: usize) -> Option<(FrameStart, &[u8])> {
     let (number, rest) = payload.split_first_chunk::<4>()?;
     let (count, compressed) = rest.split_first_chunk::<4>()?;
     let agent_count = u32::from_le_bytes(*count) as usize;
-    let has_room = agent_count <= AGENTS_MAX && agent_count * ROW_BYTES / DEFLATE_RATIO_MAX <= compressed.len();
+    let has_room = agent_count <= AGENTS_MAX && agent_count * row_bytes / DEFLATE_RATIO_MAX <= compressed.len();
     has_room.then_some((FrameStart { number: u32::from_le_bytes(*number), agent_count }, compressed))
 }
 

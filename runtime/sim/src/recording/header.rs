@@ -1,8 +1,8 @@
 //! The header of a recording: what holds for all its frames, and the checks that let readers trust its numbers.
 
 use glam::Vec3;
-use motiondb::body::{BONE_MAX_M, LIMIT_MAX_RAD, Skeleton};
-use motiondb::motion::MotionDb;
+use motiondb::body::{BONE_MAX_M, EXTRA_JOINTS_MAX, LIMIT_MAX_RAD, Skeleton};
+use motiondb::motion::{ExtraBone, MotionDb};
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ const SPEED_MAX_MPS: f32 = 100.0;
 const DATABASES_MAX: usize = 10_000;
 /// Greatest number of behaviour states: a frame names them by a u16.
 const STATES_MAX: usize = 1 << 16;
-/// Greatest length of the name of a character or state, bytes.
+/// Greatest length of the name of a character, joint or state, bytes.
 const NAME_MAX_BYTES: usize = 200;
 
 /// What holds for all frames of a recording. No timings, no dates, no paths.
@@ -38,6 +38,9 @@ pub struct Header {
     /// Names of the behaviour states; at least one.
     #[serde(default = "default_states")]
     pub states: Vec<String>,
+    /// The joints beside the 22 roles that each frame holds; empty where frames hold none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extra_joints: Vec<RecordedExtraJoint>,
     /// The whole scenario: agents at the start, sources, obstacles, tunables, time step, view.
     pub scenario: Scenario,
 }
@@ -65,6 +68,21 @@ pub struct RecordedCharacter {
     pub checksum: u32,
 }
 
+/// A joint beside the 22 roles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordedExtraJoint {
+    /// Name of the joint, such as `left_index_1`: that of [`ExtraJoint`](motiondb::body::ExtraJoint).
+    pub name: String,
+    /// Position relative to the parent, in the parent's rest axes, metres.
+    pub offset_m: Vec3,
+}
+
+impl From<&ExtraBone> for RecordedExtraJoint {
+    fn from(bone: &ExtraBone) -> Self {
+        Self { name: bone.joint.name(), offset_m: bone.offset_m }
+    }
+}
+
 fn default_states() -> Vec<String> {
     Behaviour::default().state_names()
 }
@@ -85,12 +103,18 @@ impl Header {
         header
     }
 
+    /// The header of a recording whose frames hold the extra joints of a database too.
+    #[must_use]
+    pub fn with_extra_joints(self, db: &MotionDb) -> Self {
+        Self { extra_joints: db.extra.bones.iter().map(RecordedExtraJoint::from).collect(), ..self }
+    }
+
     /// The header of a scenario with bodies from one recorded database. The checksums of its characters are 0.
     pub fn of(database: RecordedDatabase, scenario: Scenario) -> Self {
         let states = scenario.behaviour.state_names();
         let character = |spec: &CharacterSpec| RecordedCharacter { name: spec.name.clone(), checksum: 0 };
         let characters = scenario.characters.iter().map(character).collect();
-        Self { databases: vec![database], characters, states, scenario }
+        Self { databases: vec![database], characters, states, extra_joints: Vec::new(), scenario }
     }
 
     /// The bodies of the first database; all styles have the same.
@@ -128,6 +152,7 @@ impl Header {
             ("databases", self.databases.len(), 1..=DATABASES_MAX),
             ("characters", self.characters.len(), 0..=DATABASES_MAX),
             ("behaviour states", self.states.len(), 1..=STATES_MAX),
+            ("extra joints", self.extra_joints.len(), 0..=EXTRA_JOINTS_MAX),
         ];
         if let Some((what, count, _)) = counts.iter().find(|(_, count, range)| !range.contains(count)) {
             return Err(format!("the header has {count} {what}"));
@@ -135,9 +160,14 @@ impl Header {
         if self.scenario.agents.iter().any(|agent| agent.style as usize >= self.databases.len()) {
             return Err("the style of an agent has no database".into());
         }
-        let mut names = self.states.iter().chain(self.characters.iter().map(|character| &character.name));
+        let names = self.states.iter().chain(self.characters.iter().map(|character| &character.name));
+        let mut names = names.chain(self.extra_joints.iter().map(|joint| &joint.name));
         if names.any(|name| name.len() > NAME_MAX_BYTES) {
-            return Err("the name of a state or character is longer than 200 bytes".into());
+            return Err("the name of a state, character or joint is longer than 200 bytes".into());
+        }
+        let is_bone = |offset_m: Vec3| offset_m.is_finite() && offset_m.abs().max_element() <= BONE_MAX_M;
+        if !self.extra_joints.iter().all(|joint| is_bone(joint.offset_m)) {
+            return Err("an extra joint is out of range".into());
         }
         if !self.databases.iter().all(|database| is_in_range(&database.skeleton)) {
             return Err("the skeleton is out of range".into());

@@ -9,8 +9,9 @@
 //!
 //! - `HEAD` comes first: the [`Header`], zipped JSON;
 //! - one `FRAM` per frame: its number, then zlib over the byte-shuffled agents, each with its id;
+//! - after each `FRAM`, where bodies have joints beside the 22 roles, `EXTR`: their rotations;
 //! - `AGNT`: all agents that ever were, from birth to removal, zipped JSON;
-//! - `INDX`: kind of each `FRAM` and `AGNT`, and the byte at which it begins;
+//! - `INDX`: kind of each `FRAM`, `EXTR` and `AGNT`, and the byte at which it begins;
 //! - `TAIL` ends the file: the byte at which `INDX` begins, u64.
 //!
 //! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the index, the reader the
@@ -42,7 +43,7 @@ pub use error::RecordingError;
 pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1};
 pub use frame::AgentFrame;
 pub use frame_packing::{FrameFault, PACKED_BYTES, unpack};
-pub use header::{Header, RecordedCharacter, RecordedDatabase};
+pub use header::{Header, RecordedCharacter, RecordedDatabase, RecordedExtraJoint};
 pub use playback::{FrameTimes, duration_s, sample};
 pub use reader::Recording;
 pub use recorder::Recorder;

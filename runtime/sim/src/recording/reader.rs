@@ -2,20 +2,22 @@
 
 use std::path::Path;
 
+use glam::Quat;
+
 use crate::population::Population;
 use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{
-    AGENTS, FORMAT_VERSION, FORMAT_VERSION_1, FRAME, INDEX, INDEX_ENTRY_BYTES, MAGIC, TAIL, TAIL_BYTES,
+    AGENTS, EXTRA, FORMAT_VERSION, FORMAT_VERSION_1, FRAME, INDEX, INDEX_ENTRY_BYTES, MAGIC, TAIL, TAIL_BYTES,
 };
 use crate::recording::frame::AgentFrame;
-use crate::recording::frame_chunk::{FrameStart, ROW_BYTES, decompress};
+use crate::recording::frame_chunk::{EXTRA_JOINT_BYTES, FrameStart, ROW_BYTES, decompress, read_extra_rows};
 use crate::recording::frame_packing::{PACKED_BYTES, unpack};
 use crate::recording::header::Header;
 use crate::recording::{agents_chunk, frame_chunk, version_1, zipped_json};
 
-/// Greatest length of an index, bytes: that of a day in steps of a millisecond.
-pub(crate) const INDEX_LIMIT_BYTES: u64 = INDEX_ENTRY_BYTES as u64 * 86_400_002;
+/// Greatest length of an index, bytes: that of a day in steps of a millisecond, with extra joints.
+pub(crate) const INDEX_LIMIT_BYTES: u64 = INDEX_ENTRY_BYTES as u64 * (2 * 86_400_001 + 1);
 
 /// An open recording; frames are read on demand, from any thread.
 ///
@@ -52,6 +54,8 @@ struct FrameIndex {
     version: u32,
     /// Byte at which each frame's chunk begins.
     bytes: Vec<u64>,
+    /// Byte at which the chunk of each frame's extra joints begins; empty where the header lists none.
+    extra_bytes: Vec<u64>,
     /// Number of agents in each frame.
     agent_counts: Vec<u32>,
 }
@@ -64,19 +68,19 @@ impl Recording {
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let file = ChunkFile::open(path)?;
         let version = read_version(&file)?;
-        let (header, population, bytes) = if version == FORMAT_VERSION_1 {
+        let (header, population, [bytes, extra_bytes]) = if version == FORMAT_VERSION_1 {
             let header = version_1::read_header(&file)?;
             let bytes = version_1::read_index(&file, index_byte(&file)?)?;
             let population = Population::of(&header.scenario);
-            (header, population, bytes)
+            (header, population, [bytes, Vec::new()])
         } else {
             let header = Header::read(&file)?;
-            let (bytes, agents_byte) = read_index(&file)?;
-            let population = read_population(&file, &header, agents_byte, bytes.len())?;
-            (header, population, bytes)
+            let (frame_bytes, agents_byte) = read_index(&file, !header.extra_joints.is_empty())?;
+            let population = read_population(&file, &header, agents_byte, frame_bytes[0].len())?;
+            (header, population, frame_bytes)
         };
         let agent_counts = agent_counts(&population, bytes.len());
-        Ok(Self { file, header, population, frames: FrameIndex { version, bytes, agent_counts } })
+        Ok(Self { file, header, population, frames: FrameIndex { version, bytes, extra_bytes, agent_counts } })
     }
 
     /// What holds for all frames.
@@ -105,22 +109,15 @@ impl Recording {
     /// If there is no such frame or its bytes are altered.
     pub fn read_frame(&self, index: usize, agents: &mut Vec<AgentFrame>) -> Result<(), RecordingError> {
         let path = || self.file.path().to_owned();
-        let count = self.frame_count();
-        let no_such_frame = || RecordingError::NoSuchFrame { path: path(), index, count };
-        let byte = *self.frames.bytes.get(index).ok_or_else(no_such_frame)?;
+        let byte = *self.frames.bytes.get(index).ok_or_else(|| self.no_such_frame(index))?;
         let expected = self.agent_count(index);
-        let payload = self.file.read_chunk(byte, FRAME, most_frame_bytes(expected))?;
+        let payload = self.file.read_chunk(byte, FRAME, most_frame_bytes(expected, ROW_BYTES))?;
         agents.clear();
         agents.try_reserve(expected).map_err(|_| self.file.out_of_memory())?;
         if self.frames.version == FORMAT_VERSION_1 {
             return self.read_frame_of_version_1(index, byte, &payload, agents);
         }
-        let damaged = || self.file.damaged(byte, format!("this is not frame {index} with {expected} agents"));
-        let (start, compressed) = frame_chunk::start(&payload).ok_or_else(damaged)?;
-        if start != (FrameStart { number: index as u32, agent_count: expected }) {
-            return Err(damaged());
-        }
-        let rows = decompress(compressed, ROW_BYTES, expected).ok_or_else(damaged)?;
+        let rows = self.rows(index, byte, &payload, ROW_BYTES)?;
         for row in rows.chunks_exact(ROW_BYTES) {
             let agent = agents.len();
             let at_agent = |fault| RecordingError::Frame { path: path(), byte, frame: index, agent, fault };
@@ -128,6 +125,41 @@ impl Recording {
             agents.push(frame.map_err(at_agent)?);
         }
         self.check_agents(index, byte, agents)
+    }
+
+    /// Replaces `rotations` by those of the extra joints in one frame, relative to their parents: agent by agent as in
+    /// [`read_frame`](Self::read_frame), each with the joints that the header lists. None where the header lists none.
+    ///
+    /// # Errors
+    /// If there is no such frame or its bytes are altered.
+    pub fn read_extra(&self, index: usize, rotations: &mut Vec<Quat>) -> Result<(), RecordingError> {
+        rotations.clear();
+        let (joints, agents) = (self.header.extra_joints.len(), self.agent_count(index));
+        if index >= self.frame_count() {
+            return Err(self.no_such_frame(index));
+        }
+        let Some(&byte) = self.frames.extra_bytes.get(index) else { return Ok(()) };
+        let row_bytes = joints * EXTRA_JOINT_BYTES;
+        let payload = self.file.read_chunk(byte, EXTRA, most_frame_bytes(agents, row_bytes))?;
+        let rows = self.rows(index, byte, &payload, row_bytes)?;
+        rotations.try_reserve(agents * joints).map_err(|_| self.file.out_of_memory())?;
+        rotations.extend(read_extra_rows(&rows));
+        Ok(())
+    }
+
+    /// The rows of all agents of a frame, of `row_bytes` bytes each, in the payload of the chunk at `byte`.
+    fn rows(&self, index: usize, byte: u64, payload: &[u8], row_bytes: usize) -> Result<Vec<u8>, RecordingError> {
+        let expected = self.agent_count(index);
+        let damaged = || self.file.damaged(byte, format!("this is not frame {index} with {expected} agents"));
+        let (start, compressed) = frame_chunk::start(payload, row_bytes).ok_or_else(damaged)?;
+        if start != (FrameStart { number: index as u32, agent_count: expected }) {
+            return Err(damaged());
+        }
+        decompress(compressed, row_bytes, expected).ok_or_else(damaged)
+    }
+
+    fn no_such_frame(&self, index: usize) -> RecordingError {
+        RecordingError::NoSuchFrame { path: self.file.path().to_owned(), index, count: self.frame_count() }
     }
 
     /// Checks that the agents of a frame are those that are present in it, in known states.
@@ -166,8 +198,8 @@ impl Recording {
 }
 
 /// Greatest length of a frame's payload: zlib makes nothing that is hard to compress much longer.
-fn most_frame_bytes(agent_count: usize) -> u64 {
-    (2 * agent_count * ROW_BYTES) as u64 + 1024
+fn most_frame_bytes(agent_count: usize, row_bytes: usize) -> u64 {
+    (2 * agent_count * row_bytes) as u64 + 1024
 }
 
 /// The format version, if the file is a recording of a known one.
@@ -192,14 +224,15 @@ fn index_byte(file: &ChunkFile) -> Result<u64, RecordingError> {
     }
 }
 
-/// The byte at which each frame's chunk begins, and that of the agents' chunk.
-fn read_index(file: &ChunkFile) -> Result<(Vec<u64>, u64), RecordingError> {
+/// The byte at which each frame's chunk begins, that of its extra joints where the header lists any, and that of the
+/// agents' chunk.
+fn read_index(file: &ChunkFile, has_extra_joints: bool) -> Result<([Vec<u64>; 2], u64), RecordingError> {
     let index_byte = index_byte(file)?;
     let index = file.read_chunk(index_byte, INDEX, INDEX_LIMIT_BYTES)?;
     let (entries, []) = index.as_chunks::<INDEX_ENTRY_BYTES>() else {
         return Err(file.damaged(index_byte, "the index is not whole"));
     };
-    let (mut frame_bytes, mut agents_bytes, mut before) = (Vec::new(), Vec::new(), 0);
+    let (mut frame_bytes, mut extra_bytes, mut agents_bytes, mut before) = (Vec::new(), Vec::new(), Vec::new(), 0);
     for entry in entries {
         let [k0, k1, k2, k3, byte @ ..] = *entry;
         let byte = u64::from_le_bytes(byte);
@@ -210,13 +243,17 @@ fn read_index(file: &ChunkFile) -> Result<(Vec<u64>, u64), RecordingError> {
         before = byte;
         match [k0, k1, k2, k3] {
             FRAME => frame_bytes.push(byte),
+            EXTRA if has_extra_joints => extra_bytes.push(byte),
             AGENTS => agents_bytes.push(byte),
             _ => {}
         }
     }
     match agents_bytes[..] {
         _ if frame_bytes.is_empty() => Err(file.damaged(index_byte, "the index is empty: it names no frame")),
-        [agents_byte] => Ok((frame_bytes, agents_byte)),
+        _ if has_extra_joints && extra_bytes.len() != frame_bytes.len() => {
+            Err(file.damaged(index_byte, "the index does not name the extra joints of each frame"))
+        }
+        [agents_byte] => Ok(([frame_bytes, extra_bytes], agents_byte)),
         _ => Err(file.damaged(index_byte, "the index does not name one list of agents")),
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use glam::Quat;
 use motiondb::files::atomic_file::AtomicFile;
 
 use crate::population::{AgentId, Population};
@@ -12,10 +13,10 @@ use crate::recording::agents_chunk;
 use crate::recording::chunk::write_chunk;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{
-    AGENTS, CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FRAME, HEAD, HEAD_BYTE, INDEX, MAGIC, TAIL,
+    AGENTS, CHUNK_HEAD_BYTES, ChunkKind, EXTRA, FORMAT_VERSION, FRAME, HEAD, HEAD_BYTE, INDEX, MAGIC, TAIL,
 };
 use crate::recording::frame::AgentFrame;
-use crate::recording::frame_chunk::{append_row, compress};
+use crate::recording::frame_chunk::{EXTRA_JOINT_BYTES, ROW_BYTES, append_extra_row, append_row, compress};
 use crate::recording::header::Header;
 use crate::recording::zipped_json;
 
@@ -59,6 +60,8 @@ pub struct Recorder {
     present: Vec<AgentId>,
     /// Rows of one frame: working memory.
     rows: Vec<u8>,
+    /// Rows of the extra joints of one frame: working memory.
+    extra_rows: Vec<u8>,
     /// Kept from frame to frame, because its tables are larger than a small crowd's frame.
     zlib: ZlibEncoder<Vec<u8>>,
 }
@@ -85,17 +88,31 @@ impl Recorder {
             lives: Vec::new(),
             present: Vec::new(),
             rows: Vec::new(),
+            extra_rows: Vec::new(),
             zlib: ZlibEncoder::new(Vec::new(), Compression::fast()),
         };
         recorder.write(HEAD, &payload)?;
         Ok(recorder)
     }
 
-    /// Appends one frame: every present agent, in the order of ids.
+    /// Appends one frame: every present agent, in the order of ids. The header must list no extra joints.
     ///
     /// # Errors
     /// If the disk is full, an agent is missing from the start, an id is not the next one, or a value is not finite.
     pub fn push(&mut self, agents: &[AgentFrame]) -> Result<(), RecordingError> {
+        self.push_with_extra(agents, [])
+    }
+
+    /// Appends one frame as [`push`](Self::push) does, and for each agent the rotations of the extra joints that the
+    /// header lists, relative to their parents.
+    ///
+    /// # Errors
+    /// As of [`push`](Self::push); if an agent has other extra joints than the header lists.
+    pub fn push_with_extra<'a>(
+        &mut self,
+        agents: &[AgentFrame],
+        extra: impl IntoIterator<Item = &'a [Quat]>,
+    ) -> Result<(), RecordingError> {
         let (path, frame) = (&self.path, self.frame_count as usize);
         let listed = self.header.scenario.agents.len();
         if frame == 0 && agents.len() < listed {
@@ -113,11 +130,40 @@ impl Recorder {
             append_row(values, before, &mut self.rows).ok_or_else(not_finite)?;
             before = Some(values.id);
         }
+        self.append_extra(agents, extra)?;
         self.follow_lives(agents)?;
-        let payload = compress(self.frame_count, &mut self.zlib, &self.rows)
-            .map_err(|source| RecordingError::Unwritable { path: self.path.clone(), source })?;
+        let unwritable = |source| RecordingError::Unwritable { path: self.path.clone(), source };
+        let payload = compress(self.frame_count, &mut self.zlib, &self.rows, ROW_BYTES).map_err(unwritable)?;
+        let joints = self.header.extra_joints.len();
+        let extra = (joints > 0)
+            .then(|| compress(self.frame_count, &mut self.zlib, &self.extra_rows, joints * EXTRA_JOINT_BYTES))
+            .transpose()
+            .map_err(unwritable)?;
         self.frame_count += 1;
-        self.write_indexed(FRAME, &payload)
+        self.write_indexed(FRAME, &payload)?;
+        extra.map_or(Ok(()), |payload| self.write_indexed(EXTRA, &payload))
+    }
+
+    /// Makes the rows of the extra joints of a frame.
+    fn append_extra<'a>(
+        &mut self,
+        agents: &[AgentFrame],
+        extra: impl IntoIterator<Item = &'a [Quat]>,
+    ) -> Result<(), RecordingError> {
+        let (frame, expected) = (self.frame_count as usize, self.header.extra_joints.len());
+        let mut extra = extra.into_iter();
+        self.extra_rows.clear();
+        for agent in agents {
+            let (agent, rotations) = (agent.id.index(), extra.next().unwrap_or_default());
+            let found = rotations.len();
+            if found != expected {
+                let path = self.path.clone();
+                return Err(RecordingError::ExtraJointCount { path, frame, agent, found, expected });
+            }
+            let not_finite = || RecordingError::NotFinite { path: self.path.clone(), frame, agent };
+            append_extra_row(rotations, &mut self.extra_rows).ok_or_else(not_finite)?;
+        }
+        Ok(())
     }
 
     /// Notes the agents that are born and removed in a frame.

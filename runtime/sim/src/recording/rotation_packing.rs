@@ -12,7 +12,7 @@ pub(crate) const FINE_JOINTS: usize = 7;
 /// Bits per component of a fine joint.
 const FINE_BITS: u32 = 18;
 /// Bits per component of the other joints.
-const COARSE_BITS: u32 = 15;
+pub(crate) const COARSE_BITS: u32 = 15;
 
 /// Bits of each of a joint's three components.
 pub(crate) fn component_bits(joint: Joint) -> u32 {
