@@ -52,6 +52,10 @@ const ROUNDED_M: f32 = 0.3;
 /// Shares of the displacement to the right that are tried until the aim is in sight.
 const SHARES: [f32; 3] = [1.0, 0.5, 0.25];
 
+/// Greatest angle between the direction before a corner and the direction to it, rad: 45°. Agents that a crowd holds
+/// beside a corner would otherwise turn back from it.
+const SWING_MAX_RAD: f32 = 0.785;
+
 /// A corner of a route, and the point after it.
 #[derive(Clone, Copy, Debug)]
 struct RouteCorner {
@@ -65,6 +69,10 @@ fn turning(position_m: Vec2, corner: RouteCorner, keep: KeepSide, wall_radius_m:
     let [to_aim_m, to_after_m] = [aim_m - position_m, corner.after_m - position_m];
     let anticipating_m = to_aim_m - ANTICIPATION * to_aim_m.length() * to_after_m.normalize_or_zero();
     let before = anticipating_m.try_normalize().unwrap_or_else(|| to_aim_m.normalize_or_zero());
+    let direct = (corner.corner_m - position_m).normalize_or(before);
+    let swing_rad = libm::atan2f(direct.perp_dot(before), direct.dot(before)).clamp(-SWING_MAX_RAD, SWING_MAX_RAD);
+    let (sin, cos) = libm::sincosf(swing_rad);
+    let before = Vec2::new(cos, sin).rotate(direct);
     let near = 1.0 - (corner.corner_m.distance(position_m) / ROUNDED_M).min(1.0);
     let onwards = (corner.after_m - corner.corner_m).normalize_or(before);
     before.lerp(onwards, near).normalize_or(onwards)
@@ -140,6 +148,15 @@ mod tests {
     fn narrow_passages_leave_no_room_to_keep_right() {
         let [wide, narrow] = [4.0, 0.6].map(|width_m| direction_at([0.3, -5.0], [-5.0, 0.3], width_m));
         assert!(wide.x > narrow.x + 0.1, "{wide} {narrow}");
+    }
+
+    #[test]
+    fn beside_a_corner_an_agent_does_not_turn_back() {
+        for position_m in [[0.25, -0.3], [0.4, -0.1], [0.6, 0.0]] {
+            let to = (Vec2::new(0.2, 0.2) - Vec2::from(position_m)).normalize();
+            let direction = direction_at(position_m, [-5.0, 0.3], 4.0);
+            assert!(direction.dot(to) > 0.7, "{position_m:?}: {direction}");
+        }
     }
 
     #[test]

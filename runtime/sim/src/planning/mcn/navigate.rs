@@ -9,6 +9,7 @@ use motiondb::velocity_sets::velocity_hull::Construction;
 use crate::planning::mcn::adaptation::adapt;
 use crate::planning::mcn::avoidance::avoid;
 use crate::planning::mcn::gap::gap_m;
+use crate::planning::mcn::gradual_turn::gradual_facing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::orientation::{self, Orientation, OrientationInput};
 use crate::planning::mcn::params::{McnParams, StanceForm};
@@ -28,7 +29,7 @@ const WALL_SPEED_MPS: f32 = 4.0;
 /// 2. Adapt v_pref to the crowd: v_op (§4.3).
 /// 3. Find the half-planes of walls and agents (§4.4).
 /// 4. Solve for the velocity in the turning set; in the holding set where the agent would stand (§4.1, 4.2, 4.4).
-/// 5. Choose the facing, and with it the velocity set (§4.5).
+/// 5. Choose the facing, and with it the velocity set (§4.5); a body turns to it gradually.
 /// 6. Measure the gap that the agent passes.
 pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
@@ -49,9 +50,14 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
             holding_mps.unwrap_or_else(|| solve(world, agent, VelocitySet::Holding, params, memory))
         }
     };
+    let facing = if world.bodies {
+        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length())
+    } else {
+        orientation.facing
+    };
     Plan {
         velocity_mps,
-        facing_rad: libm::atan2f(orientation.facing.y, orientation.facing.x),
+        facing_rad: libm::atan2f(facing.y, facing.x),
         time_to_collision_s: memory.surroundings.time_to_collision_s(world, agent),
         density,
         set: orientation.set,

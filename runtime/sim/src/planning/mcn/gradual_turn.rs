@@ -1,0 +1,65 @@
+//! How far the planned facing is ahead of the body's (our addition to `FbCrowd` §4.5).
+//!
+//! Synthesis turns a body to the planned facing within T_turn = 0.3 s. In a queue the preferred facing jumps whenever the
+//! velocity does, by 60 to 120°, and bodies would turn as suddenly. People turn at rest by taking steps, and faster the
+//! faster they walk. So the planned facing is ahead of the body's facing by
+//!
+//! ```text
+//! min(α·min(1, s_0 + s_1·v), a_0 + a_1·v)
+//! ```
+//!
+//! where α is the angle to the preferred facing and v the body's speed. World axes, m/s, radians.
+
+use glam::Vec2;
+
+/// s_0: share of the angle by which a standing body's plan is ahead (docs/tuning.md).
+const SHARE_AT_REST: f32 = 0.3;
+/// s_1: how much that share grows with the speed, 1/(m/s).
+const SHARE_PER_MPS: f32 = 0.5;
+/// a_0: greatest angle by which a standing body's plan is ahead, rad: 20°, 70 °/s within T_turn.
+const AHEAD_AT_REST_RAD: f32 = 0.35;
+/// a_1: how much that angle grows with the speed, rad/(m/s).
+const AHEAD_RAD_PER_MPS: f32 = 0.15;
+
+/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`. Unit vectors.
+pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32) -> Vec2 {
+    let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
+    let share = (SHARE_AT_REST + SHARE_PER_MPS * speed_mps).min(1.0);
+    let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps;
+    let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
+    let (sin, cos) = libm::sincosf(ahead_rad);
+    Vec2::new(cos, sin).rotate(forward)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angle ahead of a body that faces +x, rad.
+    fn ahead_rad(facing_rad: f32, speed_mps: f32) -> f32 {
+        let (sin, cos) = libm::sincosf(facing_rad);
+        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps).to_angle()
+    }
+
+    #[test]
+    fn small_turns_of_a_walk_are_planned_whole() {
+        for facing_rad in [-0.5, -0.1, 0.0, 0.1, 0.5] {
+            assert!((ahead_rad(facing_rad, 1.4) - facing_rad).abs() < 1e-5, "{facing_rad}");
+        }
+    }
+
+    #[test]
+    fn plan_is_ahead_by_at_most_the_angle_of_its_speed() {
+        for (speed_mps, expected_rad) in [(0.0, 0.35), (1.0, 0.5), (2.0, 0.65)] {
+            for facing_rad in [1.5f32, 3.0] {
+                assert!((ahead_rad(facing_rad, speed_mps) - expected_rad).abs() < 1e-5);
+                assert!((ahead_rad(-facing_rad, speed_mps) + expected_rad).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn standing_body_turns_less_than_a_walking_one() {
+        assert!(ahead_rad(0.5, 0.0) < 0.2 && ahead_rad(0.5, 1.4) > 0.49);
+    }
+}
