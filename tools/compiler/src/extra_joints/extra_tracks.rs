@@ -84,6 +84,12 @@ impl ExtraTracks {
         self.joints.iter().map(turn).collect()
     }
 
+    /// Orientations of each joint's parent and of the joint itself, `[parent, own]`; the palm stands for the hand.
+    pub(crate) fn axes(&self, calibrated: &CalibratedTracks, frame: usize) -> Vec<[DQuat; 2]> {
+        let axes = |track: &ExtraTrack| [self.parent_turn(calibrated, track, frame), track.turn(calibrated, frame)];
+        self.joints.iter().map(axes).collect()
+    }
+
     /// Mean position of each joint relative to its parent, m.
     pub(crate) fn offsets_m(&self, calibrated: &CalibratedTracks) -> Vec<DVec3> {
         let tracks = &calibrated.tracks;
