@@ -9,7 +9,7 @@
 //! | finger | to the next joint or the tip, ±y | the palm's x; after the first joint, that of the joint before |
 //! | thumb | to the next joint or the tip, ±y | the palm's z; after the first joint, that of the joint before |
 //! | toe | to the tip, +x | the foot's z |
-//! | twist bone, finger without a bone | as its parent in the mean | |
+//! | twist bone, joint without a bone | as its parent in the mean | |
 //!
 //! Joints of a finger after the first are hinges: their second direction is that of the joint before, turned by the
 //! shortest arc from bone to bone, which no bend of the finger changes. A curled finger that is spread would turn the

@@ -94,6 +94,22 @@ fn axes_of_an_armature_do_not_matter() {
     }
 }
 
+/// Robots have bones of the palm beside the hand.
+#[test]
+fn fingers_may_hang_from_the_forearm() {
+    let mut figure = Figure::adult().with_fingers();
+    for (name, parent, _) in &mut figure.bones {
+        match *name {
+            "LeftHandIndex1" | "LeftHandThumb1" => *parent = Some(7),
+            "RightHandPinky1" => *parent = Some(11),
+            _ => {}
+        }
+    }
+    let character = compiled(&figure.glb()).character;
+    assert_eq!(character.extra.len(), 30);
+    check_curl(&character);
+}
+
 /// Hands that are bound as half a fist, with hanging arms.
 #[test]
 fn fingers_that_are_bound_curled_are_straight_at_rest() {

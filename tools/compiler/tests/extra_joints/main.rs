@@ -87,6 +87,26 @@ fn curled_bones_of_a_rig_are_a_curl() {
     }
 }
 
+/// CMU's skeletons: a finger that stands for all, and a thumb without a bone.
+#[test]
+fn a_hand_of_one_finger_has_none() {
+    let bone = |name: &str, x_cm: f64| Bone {
+        name: name.into(),
+        offset_cm: [x_cm, 0.0, 0.0],
+        axis: 'Z',
+        turn_deg: Box::new(|time_s| 10.0 * libm::sin(TAU * time_s)),
+        children: Vec::new(),
+    };
+    let mut hands = [vec![bone("LeftHandIndex1", 9.0), bone("LThumb", 0.0)], Vec::new()];
+    let clip = clip_with_hands("walk_110", &hands);
+    assert!(clip.extra.is_empty(), "{:?}", clip.extra);
+    let left_out = Diagnostic::Note(Note::JointsLeftOut { moving: 2, kept: 0 });
+    assert!(clip.source.diagnostics.contains(&left_out), "{:?}", clip.source.diagnostics);
+    hands[0].push(bone("LeftHandPinky1", 8.0));
+    let names = |clip: &HumanClip| clip.extra.iter().map(|extra| extra.joint.name()).collect::<Vec<_>>();
+    assert_eq!(names(&clip_with_hands("walk_110", &hands)), ["left_index_1", "left_little_1"]);
+}
+
 /// The knuckles spread, the next joints curl: their hinges are those of the fingers, not of the palm.
 #[test]
 fn spread_fingers_curl_about_their_own_hinges() {
