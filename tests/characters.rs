@@ -105,9 +105,14 @@ fn fingers_of_a_figure_curl_as_in_the_clips() {
         10.0 * finger as f64 + 20.0 + if finger == 1 { 15.0 * in_stride } else { 0.0 }
     };
     let folder = folder("fingers");
-    write(&folder, "adult.glb", &Figure::adult().with_fingers());
+    let adult = write(&folder, "adult.glb", &Figure::adult().with_fingers());
     let database = compile_with_fingers(&folder, "curling", curl_deg);
     let (db, _) = motiondb::files::database_file::load(&database).unwrap();
+    let report = fbcrowd(&["inspect", text(&adult), "--json"]).expect_code(0).json();
+    check_schema("inspect", &report);
+    let fingers = &report["character"]["extra_joints"];
+    assert_eq!(fingers.as_array().unwrap().len(), 30);
+    assert_eq!((&fingers[0]["extra"], &fingers[0]["joint"]), (&"left_thumb_1".into(), &"LeftHandThumb1".into()));
     let opened = Recording::open(&walk_scene(&folder, "curling")).unwrap();
     let character = motiondb::character::load(&folder.join("characters/adult.fbchar")).unwrap().0;
     let fit = CharacterFit::new(&character, opened.header().skeleton());
