@@ -221,10 +221,11 @@ fn kept_slots(pose: &BindPose, slots: &SlotMap, mesh: &BodyMesh) -> Vec<usize> {
     (0..is_kept.len()).filter(|&slot| is_kept[slot]).collect()
 }
 
-/// The extra joint of a bone; none of one that moves no vertex.
+/// The extra joint of a bone; none of one that moves no vertex, or has no axes.
 fn extra(kept: &[usize], bone: &ExtraBone) -> Option<CharacterExtra> {
     let [parent_axes, axes] = [bone.parent_axes, bone.axes].map(|axes| axes.normalize().as_quat());
-    Some(CharacterExtra { extra: bone.extra, joint: place(kept, bone.slot)? as u32, parent_axes, axes })
+    let joint = place(kept, bone.slot).filter(|_| parent_axes.is_finite() && axes.is_finite())? as u32;
+    Some(CharacterExtra { extra: bone.extra, joint, parent_axes, axes })
 }
 
 fn place(kept: &[usize], slot: usize) -> Option<usize> {

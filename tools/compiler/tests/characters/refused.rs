@@ -120,7 +120,7 @@ proptest! {
 
     #[test]
     fn damaged_figures_never_panic(position in 0.0_f64..1.0, byte: u8, cut in 0.0_f64..1.5) {
-        let mut bytes = Figure::adult().glb();
+        let mut bytes = Figure::adult().with_fingers().glb();
         let at = (position * bytes.len() as f64) as usize;
         bytes[at] = byte;
         bytes.truncate((cut * bytes.len() as f64) as usize);
