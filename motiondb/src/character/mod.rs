@@ -14,6 +14,8 @@
 //!     // Once for each body and frame; the lists can be used again.
 //!     let (mut transforms, [mut positions_m, mut normals]) = (Vec::<JointTransform>::new(), [Vec::new(), Vec::new()]);
 //!     fit.pose(skeleton, joints, root.frame(), &mut transforms);
+//!     // Fingers, toes and twist bones, where their rotations are known; here they stay as they are bound.
+//!     fit.pose_extra(|_extra_joint| None, &mut transforms);
 //!     character.mesh.skin(&transforms, &mut positions_m, &mut normals);
 //!     [positions_m, normals]
 //! }

@@ -92,8 +92,11 @@ impl<'a> Take<'a> {
         sample(self.recording, time_s)
     }
 
-    /// The extra joints of all agents at a time.
+    /// The extra joints of all agents at a time; none where no characters show them.
     pub(crate) fn extra_at(&self, time_s: f64) -> Result<ExtraFrame, RecordingError> {
+        if self.options.characters.is_empty() {
+            return Ok(ExtraFrame::default());
+        }
         sample_extra(self.recording, time_s)
     }
 
