@@ -6,11 +6,20 @@ mod support;
 #[allow(dead_code, reason = "the compiler's tests use all of it")]
 mod figure;
 
+#[path = "../tools/compiler/tests/extra_joints/hands.rs"]
+#[allow(dead_code, reason = "the compiler's tests use all of it")]
+mod hands;
+
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording::{Recording, sample, sample_extra};
 use figure::Figure;
+use glam::{DVec2, Quat};
+use motiondb::body::{ExtraJoint, Side};
+use motiondb::character::CharacterFit;
+use motiondb::motion::PHASE_COUNT;
 use support::{WALK, check_schema, compile, fbcrowd, folder, scenario, text};
 
 /// Writes a figure into a folder.
@@ -59,6 +68,112 @@ fn figures_are_compiled_inspected_and_worn() {
     }
     let shown = fbcrowd(&["inspect", text(&adult)]).expect_code(0).stdout;
     assert!(shown.contains("left_thigh          LeftUpLeg"), "{shown}");
+}
+
+/// A database of a walk and an idle whose fingers curl by an angle, degrees, of the finger and the time.
+fn compile_with_fingers(folder: &Path, name: &str, curl_deg: fn(usize, f64) -> f64) -> PathBuf {
+    let clips = folder.join(name);
+    fs::create_dir_all(&clips).unwrap();
+    for clip in ["walk_110", "idle"] {
+        fs::write(clips.join(format!("{clip}.bvh")), hands::text_with_hands(clip, &hands::both(curl_deg))).unwrap();
+    }
+    let database = folder.join(format!("{name}.fbdb"));
+    fbcrowd(&["compile", text(&clips), "-o", text(&database)]).expect_code(0);
+    database
+}
+
+/// A scenario of an agent that walks with a database and wears a figure, before a camera.
+fn walk_scene(folder: &Path, database: &str) -> PathBuf {
+    let scene = format!(
+        "duration_s = 6\nvariation = false\ndatabase = \"{database}.fbdb\"\n[[characters]]\nfile = \"adult.glb\"\n\
+         [camera]\neye_m = [7, 2.5, 1]\nlook_at_m = [5, 0, 0.8]\nfocal_mm = 50\n\
+         [[agents]]\nat_m = [0, 0]\ngoals_m = [[20, 0]]\npreferred_speed_mps = 1.1\n"
+    );
+    let scene = scenario(folder, &scene);
+    let recording = folder.join(format!("{database}.fbrec"));
+    fbcrowd(&["simulate", &scene, "-o", text(&recording)]).expect_code(0);
+    recording
+}
+
+/// From clips with curling fingers to those of a figure: the curl of a stride, at its phase.
+#[test]
+fn fingers_of_a_figure_curl_as_in_the_clips() {
+    // A stride of the clip.
+    const STRIDE_S: f64 = 1.208_333;
+    let curl_deg = |finger: usize, time_s: f64| {
+        let in_stride = DVec2::from_angle(TAU * time_s / STRIDE_S).y;
+        10.0 * finger as f64 + 20.0 + if finger == 1 { 15.0 * in_stride } else { 0.0 }
+    };
+    let folder = folder("fingers");
+    let adult = write(&folder, "adult.glb", &Figure::adult().with_fingers());
+    let database = compile_with_fingers(&folder, "curling", curl_deg);
+    let (db, _) = motiondb::files::database_file::load(&database).unwrap();
+    let report = fbcrowd(&["inspect", text(&adult), "--json"]).expect_code(0).json();
+    check_schema("inspect", &report);
+    let fingers = &report["character"]["extra_joints"];
+    assert_eq!(fingers.as_array().unwrap().len(), 30);
+    assert_eq!((&fingers[0]["extra"], &fingers[0]["joint"]), (&"left_thumb_1".into(), &"LeftHandThumb1".into()));
+    let opened = Recording::open(&walk_scene(&folder, "curling")).unwrap();
+    let character = motiondb::character::load(&folder.join("characters/adult.fbchar")).unwrap().0;
+    let fit = CharacterFit::new(&character, opened.header().skeleton());
+    let joints: Vec<ExtraJoint> =
+        opened.header().extra_joints.iter().map(|joint| ExtraJoint::named(&joint.name).unwrap()).collect();
+    assert_eq!(joints.len(), 30);
+    let walk = db.examples.iter().position(|example| example.name == "walk_110").unwrap();
+    let mut curls_deg = Vec::new();
+    for frame in 120..180 {
+        let time_s = f64::from(frame) / 30.0;
+        let (agent, extra) = (sample(&opened, time_s).unwrap()[0], sample_extra(&opened, time_s).unwrap());
+        let rotation =
+            |joint: ExtraJoint| joints.iter().position(|known| *known == joint).map(|at| extra.of(agent.id)[at]);
+        let pose = agent.pose.forward_kinematics(opened.header().skeleton());
+        let mut transforms = Vec::new();
+        fit.pose(opened.header().skeleton(), &pose, agent.root.frame(), &mut transforms);
+        fit.pose_extra(rotation, &mut transforms);
+        for side in Side::BOTH {
+            // The curl of the middle joint, by the bones on both sides of it.
+            let at_m = |finger: usize, joint: usize| {
+                let joint = character.extra_joint(ExtraJoint::finger(side, finger, joint)).unwrap();
+                transforms[joint].point_m(character.joints[joint].position_m)
+            };
+            let bone = |finger: usize, joint: usize| at_m(finger, joint + 1) - at_m(finger, joint);
+            let knuckle = Quat::from_rotation_arc(bone(2, 0).normalize(), bone(2, 1).normalize());
+            let found_deg = knuckle.to_axis_angle().1.to_degrees();
+            assert!((found_deg - 40.0).abs() < 1.0, "middle finger: {found_deg}°");
+            // Fingers curl towards the palm: the thumb is on the other side of the knuckles' axis.
+            let palm = bone(2, 0).cross(at_m(1, 0) - at_m(4, 0)) * side.sign();
+            assert!(bone(2, 1).dot(palm) > 0.0, "{side:?}: fingers bend backwards");
+            let row = agent.phase * PHASE_COUNT as f32;
+            let at_row = |row: usize| {
+                let joint = db.extra.position(ExtraJoint::finger(side, 1, 1)).unwrap();
+                db.extra.row(walk, row % PHASE_COUNT)[joint].to_scaled_axis().x.abs().to_degrees()
+            };
+            let wanted_deg = at_row(row as usize) + row.fract() * (at_row(row as usize + 1) - at_row(row as usize));
+            let curl = Quat::from_rotation_arc(bone(1, 0).normalize(), bone(1, 1).normalize());
+            let found_deg = curl.to_axis_angle().1.to_degrees();
+            assert!((found_deg - wanted_deg).abs() < 3.0, "index finger: {found_deg}°, not {wanted_deg}°");
+            curls_deg.push(found_deg);
+        }
+    }
+    let (least, greatest) =
+        curls_deg.iter().fold((f32::MAX, 0.0_f32), |(least, greatest), curl| (least.min(*curl), greatest.max(*curl)));
+    assert!((least - 15.0).abs() < 2.0 && (greatest - 45.0).abs() < 2.0, "{least}° to {greatest}°");
+}
+
+#[test]
+fn pictures_show_curled_fingers() {
+    let folder = folder("finger_pictures");
+    write(&folder, "adult.glb", &Figure::adult().with_fingers());
+    let [straight, curled, again] = [("straight", 0.0), ("curled", 1.0), ("again", 1.0)].map(|(name, curl)| {
+        compile_with_fingers(&folder, name, if curl > 0.0 { |_, _| 60.0 } else { |_, _| 0.0 });
+        let (recording, frames) = (walk_scene(&folder, name), folder.join(format!("{name}_frames")));
+        let camera = ["--view", "camera", "--frames", "1121", "--size", "320x180"];
+        let arguments = [&["render", text(&recording), "-o", text(&frames)][..], &camera].concat();
+        fbcrowd(&arguments).expect_code(0);
+        fs::read(fs::read_dir(&frames).unwrap().next().unwrap().unwrap().path()).unwrap()
+    });
+    assert_ne!(straight, curled);
+    assert_eq!(curled, again);
 }
 
 /// Number of pixels of a colour in a PNG file.

@@ -2,14 +2,19 @@
 
 mod support;
 
+#[path = "../tools/compiler/tests/extra_joints/hands.rs"]
+#[allow(dead_code, reason = "the compiler's tests use all of it")]
+mod hands;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::planning::PlanExplanation;
 use fbcrowd_sim::recording::{Recording, Replay};
 use fbcrowd_sim::scenario::Scenario;
+use motiondb::body::{ExtraJoint, Side};
 use motiondb::files::database_file;
-use support::{fbcrowd, folder, mocap, repository, text};
+use support::{check_schema, fbcrowd, folder, mocap, repository, text};
 
 /// A folder with bundled clips, each at a path of its own.
 fn clips(name: &str, files: &[(&str, &str)]) -> PathBuf {
@@ -173,6 +178,48 @@ fn agents_walk_in_their_styles() {
         "1060-1061",
     ])
     .expect_code(0);
+}
+
+/// The neutral clips have fingers, the elderly ones have none: their bodies hold the mean.
+#[test]
+fn all_styles_have_the_same_extra_joints() {
+    let folder = folder("finger_styles");
+    for (clip, path) in [("walk_110", "neutral/walk"), ("idle", "neutral/idle"), ("walk_080", "neutral/slow")] {
+        let path = folder.join("clips").join(format!("{path}.bvh"));
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, hands::text_with_hands(clip, &hands::both(|_, _| 30.0))).unwrap();
+    }
+    for (clip, path) in [("walk_050", "elderly/walk"), ("walk_080", "elderly/fast_walk")] {
+        let path = folder.join("clips").join(format!("{path}.bvh"));
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::copy(repository().join("assets/clips").join(format!("{clip}.bvh")), path).unwrap();
+    }
+    let database = compile(&folder.join("clips"));
+    let (db, _) = database_file::load(&database).unwrap();
+    assert_eq!(db.further_styles.len(), 1);
+    for style in db.styles() {
+        assert_eq!(style.extra.bones, db.extra.bones);
+    }
+    let lanes = "[[agents]]\nat_m = [0, 0]\ngoals_m = [[20, 0]]\n\
+                 [[agents]]\nat_m = [0, 3]\ngoals_m = [[20, 3]]\nstyle = 'elderly'\n";
+    let recording = database.with_file_name("lanes.fbrec");
+    fbcrowd(&["simulate", text(&scenario(&database, "lanes", lanes)), "-o", text(&recording)]).expect_code(0);
+    let opened = Recording::open(&recording).unwrap();
+    let mut rotations = Vec::new();
+    opened.read_extra(200, &mut rotations).unwrap();
+    assert_eq!(rotations.len(), 2 * 30);
+    let knuckle = ExtraJoint::finger(Side::Left, 1, 0).name();
+    let at = opened.header().extra_joints.iter().position(|joint| joint.name == knuckle).unwrap();
+    for (agent, rotations) in rotations.chunks_exact(30).enumerate() {
+        let curl_deg = rotations[at].to_axis_angle().1.to_degrees();
+        assert!((curl_deg - 30.0).abs() < 1.0, "agent {agent}: {curl_deg}°");
+    }
+    let measures = fbcrowd(&["measure", text(&recording), "--json"]).expect_code(0).json();
+    check_schema("measure", &measures);
+    assert_eq!(measures["extra_joints"].as_array().unwrap().len(), 30);
+    assert_eq!(measures["extra_joints"][at], knuckle);
+    let shown = fbcrowd(&["measure", text(&recording)]).expect_code(0).stdout;
+    assert!(shown.contains("30 beside the 22 roles: left_thumb_1 … right_little_3"), "{shown}");
 }
 
 #[test]

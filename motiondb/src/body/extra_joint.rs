@@ -154,6 +154,11 @@ impl ExtraJoint {
         }
     }
 
+    /// The joint of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|joint| joint.name() == name)
+    }
+
     /// The joint's name in files and reports: `left_index_1`, `right_forearm_twist`, `left_toe_1`. Numbers count from the
     /// palm, and from the great toe.
     pub fn name(self) -> String {
@@ -193,6 +198,7 @@ mod tests {
         assert_eq!(names.len(), ExtraJoint::COUNT);
         for joint in ExtraJoint::all() {
             assert_eq!(joint.mirrored().mirrored(), joint);
+            assert_eq!(ExtraJoint::named(&joint.name()), Some(joint));
             assert_eq!(joint.mirrored().side(), joint.side().other());
             match (joint.parent(), joint.mirrored().parent()) {
                 (ExtraParent::Role(parent), ExtraParent::Role(other)) => assert_eq!(parent.mirrored(), other),

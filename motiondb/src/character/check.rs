@@ -1,9 +1,9 @@
 //! Invariants of a character: posing and skinning rely on all of them, so a file that breaks one is rejected.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 use crate::body::Joint;
-use crate::character::model::{Character, CharacterMesh, Material, WEIGHT_COUNT};
+use crate::character::model::{Character, CharacterExtra, CharacterMesh, Material, WEIGHT_COUNT};
 use crate::character::texture::{CutOut, TEXTURE_PIXELS_MAX, TEXTURE_SIDE_MAX};
 
 /// Greatest number of joints; an index into them is a u16.
@@ -42,6 +42,7 @@ const REQUIRED: [Joint; 13] = [
 /// The first invariant that a character breaks, as a text for people; none of a valid character.
 pub fn first_fault(character: &Character) -> Option<String> {
     joints_fault(character)
+        .or_else(|| extra_fault(character))
         .or_else(|| sizes_fault(character))
         .or_else(|| mesh_fault(character))
         .or_else(|| textures_fault(character))
@@ -68,6 +69,24 @@ fn joints_fault(character: &Character) -> Option<String> {
         }
     }
     None
+}
+
+/// Each extra joint comes after its parent.
+fn extra_fault(character: &Character) -> Option<String> {
+    let Character { joints, extra, .. } = character;
+    let is_turn = |turn: Quat| (turn.length_squared() - 1.0).abs() < UNIT_TOLERANCE;
+    let is_sound = |known: &CharacterExtra| {
+        let is_after_parent = character.extra_parent(known.extra).is_some_and(|parent| parent < known.joint as usize);
+        let is_role = character.roles.contains(&Some(known.joint));
+        is_after_parent && !is_role && is_turn(known.parent_axes) && is_turn(known.axes)
+    };
+    let is_unique = |pair: &[CharacterExtra]| pair[0].extra < pair[1].extra;
+    let unsound = extra.iter().find(|known| known.joint as usize >= joints.len() || !is_sound(known));
+    match unsound {
+        Some(known) => Some(format!("`{}` names no joint, or has a parent after it", known.extra.name())),
+        None if !extra.windows(2).all(is_unique) => Some("its extra joints are not in order".into()),
+        None => None,
+    }
 }
 
 fn sizes_fault(character: &Character) -> Option<String> {

@@ -30,6 +30,9 @@ pub struct CharacterFit<'a> {
     pub(crate) turns: [Quat; JOINT_COUNT],
     /// The role that each joint moves with: its own, or that of the nearest joint above; the pelvis where there is none.
     pub(crate) leaders: Vec<Joint>,
+    /// The joint of the extra joint that each joint moves with: its own, or the nearest above it below any role; else the
+    /// joint itself.
+    pub(crate) extra_leaders: Vec<u32>,
     /// Distance by which each foot stands farther to the left than the skeleton's, `[left, right]`, m.
     pub(crate) wider_m: [f32; 2],
     /// Height of the skeleton's hips above the soles at rest, m.
@@ -52,6 +55,7 @@ impl<'a> CharacterFit<'a> {
             wider_m: [wider_m, -wider_m],
             turns: turns(character, skeleton, &rest_m),
             leaders: leaders(character),
+            extra_leaders: extra_leaders(character),
             hips_over_soles_m,
         }
     }
@@ -126,4 +130,16 @@ fn leaders(character: &Character) -> Vec<Joint> {
         own[joint] = own[joint].or_else(|| own[character.joints[joint].parent? as usize]);
     }
     own.into_iter().map(|role| role.unwrap_or(Joint::Pelvis)).collect()
+}
+
+fn extra_leaders(character: &Character) -> Vec<u32> {
+    let mut leaders: Vec<u32> = (0..character.joints.len() as u32).collect();
+    let is_extra = |joint: u32| character.extra.iter().any(|known| known.joint == joint);
+    // A parent comes before its children.
+    for joint in 0..leaders.len() as u32 {
+        let above = character.joints[joint as usize].parent.map(|above| leaders[above as usize]);
+        let is_led = !character.roles.contains(&Some(joint)) && !is_extra(joint);
+        leaders[joint as usize] = above.filter(|above| is_led && is_extra(*above)).unwrap_or(joint);
+    }
+    leaders
 }

@@ -14,6 +14,8 @@
 //!     // Once for each body and frame; the lists can be used again.
 //!     let (mut transforms, [mut positions_m, mut normals]) = (Vec::<JointTransform>::new(), [Vec::new(), Vec::new()]);
 //!     fit.pose(skeleton, joints, root.frame(), &mut transforms);
+//!     // Fingers, toes and twist bones, where their rotations are known; here they stay as they are bound.
+//!     fit.pose_extra(|_extra_joint| None, &mut transforms);
 //!     character.mesh.skin(&transforms, &mut positions_m, &mut normals);
 //!     [positions_m, normals]
 //! }
@@ -23,24 +25,25 @@
 //! metres of its file; the origin lies on the ground under the pelvis.
 //!
 //! Read `model` (the noun), `texture` and `check` (its invariants), `character_file` (`.fbchar`), `fit` (what a character and a
-//! skeleton give once), `posing`, `skinning` with `dye`, and last `choice` (which agent wears which
+//! skeleton give once), `posing` with `extra_posing`, `skinning` with `dye`, and last `choice` (which agent wears which
 //! character).
 
 mod character_file;
 mod check;
 mod choice;
 mod dye;
+mod extra_posing;
 mod fit;
 mod model;
 mod posing;
 mod skinning;
 mod texture;
 
-pub use character_file::{MAGIC, VERSION, from_bytes, load, to_bytes, write};
+pub use character_file::{EXTRA_VERSION, MAGIC, VERSION, from_bytes, load, to_bytes, write};
 pub use check::{JOINTS_MAX, TRIANGLES_MAX, VERTICES_MAX, first_fault};
 pub use choice::{chosen, hue_turn};
 pub use dye::Dye;
 pub use fit::{CharacterFit, SCALE_TOLERANCE};
-pub use model::{Character, CharacterFoot, CharacterJoint, CharacterMesh, Material, WEIGHT_COUNT};
+pub use model::{Character, CharacterExtra, CharacterFoot, CharacterJoint, CharacterMesh, Material, WEIGHT_COUNT};
 pub use posing::JointTransform;
 pub use texture::{CharacterTexture, CutOut, TEXTURE_PIXELS_MAX, TEXTURE_SIDE_MAX, Wrap, linear_values};

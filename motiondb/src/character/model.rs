@@ -3,7 +3,7 @@
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::body::{JOINT_COUNT, Joint};
+use crate::body::{ExtraJoint, ExtraParent, JOINT_COUNT, Joint};
 use crate::character::texture::{CharacterTexture, CutOut};
 
 /// Greatest number of joints that move one vertex.
@@ -34,6 +34,22 @@ pub struct Character {
     pub mesh: CharacterMesh,
     /// The textures of its materials.
     pub textures: Vec<CharacterTexture>,
+    /// The joints beside the roles that poses move, in order; files hold them after all else.
+    #[serde(skip)]
+    pub extra: Vec<CharacterExtra>,
+}
+
+/// A joint of a character that is an extra joint: of a finger, a toe, or a twist bone. Rotations in bind space.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CharacterExtra {
+    /// What the joint is.
+    pub extra: ExtraJoint,
+    /// Index of the joint.
+    pub joint: u32,
+    /// Orientation of the parent's axes in the bind pose: of the palm, the limb, the toes, or the finger joint before.
+    pub parent_axes: Quat,
+    /// Orientation of the joint's own axes in the bind pose: at the rest of [`ExtraJoint`], those of the parent.
+    pub axes: Quat,
 }
 
 /// A joint of a character in bind space.
@@ -116,6 +132,20 @@ impl Character {
     /// The nearest role above a role that the character has a joint for; none above the pelvis.
     pub fn role_above(&self, role: Joint) -> Option<Joint> {
         std::iter::successors(role.parent(), |above| above.parent()).find(|above| self.joint(*above).is_some())
+    }
+
+    /// Index of the joint that is an extra joint.
+    pub fn extra_joint(&self, extra: ExtraJoint) -> Option<usize> {
+        let found = self.extra.binary_search_by_key(&extra, |known| known.extra).ok()?;
+        Some(self.extra[found].joint as usize)
+    }
+
+    /// Index of the joint of the role or of the extra joint from which an extra joint hangs.
+    pub fn extra_parent(&self, extra: ExtraJoint) -> Option<usize> {
+        match extra.parent() {
+            ExtraParent::Role(role) => self.joint(role),
+            ExtraParent::Extra(parent) => self.extra_joint(parent),
+        }
     }
 
     /// Whether a foot bends at its toes.

@@ -11,7 +11,8 @@
 //!    knee although the foot's length is the character's own, and the feet as far apart as its hips.
 //! 5. The hips sink where a planted leg would not reach the ground.
 //!
-//! Joints without a role keep their bind place under the role above them. Root frame, metres, until the last step.
+//! Joints without a role keep their bind place under the role above them; `extra_posing` turns fingers, toes and twist bones.
+//! Root frame, metres, until the last step.
 
 use glam::{Quat, Vec3};
 

@@ -10,7 +10,7 @@ use fbcrowd_render::camera::{CameraView, ColourBy, Quality, Shot};
 use fbcrowd_render::png_frame;
 use fbcrowd_render::visibility::{Lens, SamplePattern};
 use fbcrowd_sim::Population;
-use fbcrowd_sim::recording::{AgentFrame, Header};
+use fbcrowd_sim::recording::{AgentFrame, ExtraFrame, Header};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use glam::{Vec2, Vec3};
 use motiondb::body::Root;
@@ -72,7 +72,7 @@ fn sheet(
         let width = columns as f32 * APART_M / eye_m.distance(middle_m);
         let lens = Lens::perspective(size_px, eye_m, middle_m, width);
         let shot = Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None };
-        let picture = view.draw(&shot, &agents).to_display();
+        let picture = view.draw(&shot, &agents, &ExtraFrame::default()).to_display();
         let top = (row as u32 * size_px[1]) as i32;
         sheet.draw_pixmap(0, top, picture.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
     }

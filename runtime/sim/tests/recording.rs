@@ -9,7 +9,7 @@ use common::{agent, folder, header, numbered, record, standing_at};
 use fbcrowd_sim::behaviour::Area;
 use fbcrowd_sim::population::Population;
 use fbcrowd_sim::recording::{
-    AgentFrame, Header, RecordedExtraJoint, Recorder, Recording, RecordingError, write_chunk,
+    AgentFrame, ExtraFrame, Header, RecordedExtraJoint, Recorder, Recording, RecordingError, sample_extra, write_chunk,
 };
 use fbcrowd_sim::scenario::{Marking, MarkingColour, MarkingShape};
 use glam::{Quat, Vec2, Vec3};
@@ -185,6 +185,48 @@ fn extra_joints_come_back_in_any_order() {
         assert_eq!(agents.len(), 2);
     }
     assert!(matches!(recording.read_extra(5, &mut rotations), Err(RecordingError::NoSuchFrame { .. })));
+}
+
+#[test]
+fn extra_joints_are_blended_between_frames() {
+    let (recording, written) = with_fingers(&folder("extra_between").join("a.fbrec"));
+    let at = |frames: f64| sample_extra(&recording, frames / 30.0).unwrap();
+    for (frames, agent, joint) in [(1.0, 0, 1), (1.25, 1, 0), (3.5, 1, 1), (9.0, 0, 0)] {
+        let [before, after] = [0.0, 1.0].map(|step: f64| written[((frames + step) as usize).min(4)][2 * agent + joint]);
+        let wanted = before.slerp(after, frames.fract() as f32);
+        let read = at(frames).of(agent.into())[joint];
+        assert!(read.angle_between(wanted) < 2e-3, "{frames}: {read}, not {wanted}");
+    }
+    assert!(at(1.0).of(7.into()).is_empty());
+}
+
+/// The second agent is removed in frame 3: it holds its last rotations until then.
+#[test]
+fn extra_joints_of_an_agent_end_with_it() {
+    let path = folder("extra_removed").join("a.fbrec");
+    let joint = RecordedExtraJoint { name: "left_index_1".into(), offset_m: Vec3::Y };
+    let header = Header { extra_joints: vec![joint], ..two_agents() };
+    let mut recorder = Recorder::create(&path, &header).unwrap();
+    let curl = |frame: usize, agent: usize| Quat::from_rotation_x(-0.1 * (2 * frame + agent) as f32);
+    for (frame, agents) in frames(5).iter().enumerate() {
+        let present = if frame < 3 { 2 } else { 1 };
+        let rotations: Vec<Quat> = (0..present).map(|agent| curl(frame, agent)).collect();
+        recorder.push_with_extra(&numbered(&agents[..present]), rotations.chunks(1)).unwrap();
+    }
+    let mut population = Population::of(&header.scenario);
+    population.agents[1].removed = Some(3);
+    recorder.finish(&population).unwrap();
+    let recording = Recording::open(&path).unwrap();
+    let at = |frames: f64| sample_extra(&recording, frames / 30.0).unwrap();
+    let [first, second] = [0, 1].map(|agent| at(2.5).of(agent.into())[0]);
+    assert!(first.angle_between(curl(2, 0).slerp(curl(3, 0), 0.5)) < 2e-3);
+    assert!(second.angle_between(curl(2, 1)) < 2e-3);
+    let later = at(4.0);
+    assert!(later.of(1.into()).is_empty());
+    let completed = later.clone().completed(&at(2.0));
+    assert_eq!([completed.of(0.into()), completed.of(1.into())], [later.of(0.into()), at(2.0).of(1.into())]);
+    let without = record(&folder("extra_empty").join("a.fbrec"), &two_agents(), &frames(2));
+    assert_eq!(sample_extra(&without, 0.01).unwrap(), ExtraFrame::default());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Agents of a frame as parts of the scene. World, metres.
 
 use fbcrowd_sim::Population;
-use fbcrowd_sim::recording::AgentFrame;
+use fbcrowd_sim::recording::{AgentFrame, ExtraFrame};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -30,6 +30,8 @@ pub(crate) struct Dresser<'a> {
     /// The characters; none where all bodies are plain.
     pub(crate) wardrobe: Option<&'a Wardrobe<'a>>,
     pub(crate) population: &'a Population,
+    /// The extra joints of the posed agents.
+    pub(crate) extra: &'a ExtraFrame,
 }
 
 /// Agents before a lens.
@@ -142,7 +144,8 @@ impl Dresser<'_> {
         match self.character_of(agent) {
             Some((wardrobe, character)) => {
                 let shown = shown.map(|rgb| rgb.map(decode_srgb).clamp(Vec3::ZERO, Vec3::ONE));
-                wardrobe.append(parts, &Wearer { agent, character, pixel_m: HEIGHT_M / height_px, shown });
+                let (pixel_m, extra) = (HEIGHT_M / height_px, self.extra.of(agent.id));
+                wardrobe.append(parts, &Wearer { agent, extra, character, pixel_m, shown });
             }
             None => {
                 let look = dressed(agent, shown);

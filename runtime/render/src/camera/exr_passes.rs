@@ -43,7 +43,7 @@ struct PassedFrame<'a> {
 impl<'a> PassedFrame<'a> {
     fn new(take: &'a Take<'a>, number: u32) -> Result<Self, RenderError> {
         let moment = take.moment(take.times.time_s(number), number)?;
-        let scene = take.view.scene(&moment.shot, &moment.agents);
+        let scene = take.view.scene(&moment.shot, &moment.agents, &moment.extra);
         let others = match take.options.passes.holds(Pass::Motion) {
             true => Some([other_frame(take, &moment, 1.0)?, other_frame(take, &moment, -1.0)?]),
             false => None,
@@ -84,8 +84,8 @@ impl<'a> PassedFrame<'a> {
     fn exposed(&self, moments_s: &[f64], matted: &mut Matted) -> Result<(LinearPicture, Vec<TileMattes>), RenderError> {
         let (mut sum, mut mattes) = (LinearSum::default(), Vec::new());
         for time_s in moments_s {
-            let Moment { shot, agents } = self.take.moment(*time_s, self.number)?;
-            let scene = self.take.view.scene(&shot, &agents);
+            let Moment { shot, agents, extra } = self.take.moment(*time_s, self.number)?;
+            let scene = self.take.view.scene(&shot, &agents, &extra);
             let shown = Matted::new(&scene, self.take.view.population());
             let ids = shown.ids();
             let passes = FramePasses { lens: &shot.lens, ..self.passes(&scene, &ids) };
@@ -133,13 +133,14 @@ impl<'a> PassedFrame<'a> {
 
 /// Where the parts of a moment are, a number of frames later.
 fn other_frame(take: &Take<'_>, moment: &Moment, frames: f64) -> Result<OtherFrame, RenderError> {
-    let Moment { shot, agents } = moment;
+    let Moment { shot, agents, extra } = moment;
     let time_s = shot.time_s + frames / take.times.rate.hz();
     let time_s = time_s.clamp(0.0, duration_s(take.recording));
     let posed = posed_then(agents, &take.agents_at(time_s)?);
+    let extra = take.extra_at(time_s)?.completed(extra);
     // A camera at an agent that is not present then stays.
     let lens = take.lens_at(time_s).unwrap_or(shot.lens);
-    Ok(OtherFrame { places: take.view.places(shot, agents, &posed), lens })
+    Ok(OtherFrame { places: take.view.places(shot, agents, &posed, &extra), lens })
 }
 
 /// The agents of a frame as they are at another time; as they are now where they are not present then.

@@ -1,6 +1,8 @@
 //! A recording as a camera films it: lens and agents at any time. World, metres, seconds.
 
-use fbcrowd_sim::recording::{AgentFrame, FrameTimes, Recording, RecordingError, duration_s, sample};
+use fbcrowd_sim::recording::{
+    AgentFrame, ExtraFrame, FrameTimes, Recording, RecordingError, duration_s, sample, sample_extra,
+};
 use fbcrowd_sim::scenario::{CameraSpec, ShotSpec};
 use glam::Vec3;
 use tiny_skia::Pixmap;
@@ -39,6 +41,8 @@ pub(crate) struct Moment {
     pub(crate) shot: Shot,
     /// The agents that do not hold the eye.
     pub(crate) agents: Vec<AgentFrame>,
+    /// The extra joints of all agents.
+    pub(crate) extra: ExtraFrame,
 }
 
 impl<'a> Take<'a> {
@@ -80,12 +84,20 @@ impl<'a> Take<'a> {
         let agents = self.agents_at(time_s)?;
         let lens = self.lens_at(time_s)?;
         let shot = Shot { lens, time_s, eyes_of: self.camera.eyes_of, fog_m: self.camera.fog_m };
-        Ok(Moment { agents: self.outside_eye(agents, lens.eye_m, number)?, shot })
+        Ok(Moment { agents: self.outside_eye(agents, lens.eye_m, number)?, extra: self.extra_at(time_s)?, shot })
     }
 
     /// All agents at a time.
     pub(crate) fn agents_at(&self, time_s: f64) -> Result<Vec<AgentFrame>, RecordingError> {
         sample(self.recording, time_s)
+    }
+
+    /// The extra joints of all agents at a time; none where no characters show them.
+    pub(crate) fn extra_at(&self, time_s: f64) -> Result<ExtraFrame, RecordingError> {
+        if self.options.characters.is_empty() {
+            return Ok(ExtraFrame::default());
+        }
+        sample_extra(self.recording, time_s)
     }
 
     /// The lens at a time.
@@ -95,9 +107,9 @@ impl<'a> Take<'a> {
 
     /// A frame for display, with its captions, which show its own time.
     pub(crate) fn picture(&self, number: u32) -> Result<Pixmap, RenderError> {
-        let Moment { shot, agents } = self.moment(self.times.time_s(number), number)?;
+        let Moment { shot, agents, extra } = self.moment(self.times.time_s(number), number)?;
         let picture = match self.moments_s(number)[..] {
-            [_] => self.view.draw(&shot, &agents),
+            [_] => self.view.draw(&shot, &agents, &extra),
             ref moments_s => self.mean_picture(moments_s, number)?,
         };
         let mut pixmap = picture.to_display();
@@ -109,8 +121,8 @@ impl<'a> Take<'a> {
     fn mean_picture(&self, moments_s: &[f64], number: u32) -> Result<LinearPicture, RenderError> {
         let mut sum = LinearSum::default();
         for time_s in moments_s {
-            let Moment { shot, agents } = self.moment(*time_s, number)?;
-            sum.add(&self.view.draw(&shot, &agents));
+            let Moment { shot, agents, extra } = self.moment(*time_s, number)?;
+            sum.add(&self.view.draw(&shot, &agents, &extra));
         }
         Ok(sum.mean())
     }

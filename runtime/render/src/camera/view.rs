@@ -1,13 +1,13 @@
 //! One frame of a camera: bodies, walls and ground in scene-linear light.
 //!
 //! Enters: agents of a frame and a lens, world metres. Leaves: a [`LinearPicture`]. [`CameraView::new`] prepares what
-//! all frames share; [`CameraView::draw`] depends only on time, lens and agents, so frames can be drawn in any order.
+//! all frames share; [`CameraView::draw`] depends only on time, lens and bodies, so frames can be drawn in any order.
 
 use std::ops::Range;
 
 use exr::prelude::f16;
 use fbcrowd_sim::Population;
-use fbcrowd_sim::recording::{AgentFrame, Header};
+use fbcrowd_sim::recording::{AgentFrame, ExtraFrame, Header};
 use glam::Vec3;
 use motiondb::character::Character;
 
@@ -107,26 +107,33 @@ impl<'a> CameraView<'a> {
         self
     }
 
-    /// The cones and triangles of a frame.
-    pub fn scene(&self, shot: &Shot, agents: &[AgentFrame]) -> SceneParts {
+    /// The cones and triangles of a frame. `extra` holds the rotations of the agents' extra joints.
+    pub fn scene(&self, shot: &Shot, agents: &[AgentFrame], extra: &ExtraFrame) -> SceneParts {
         let shown = shown(self.colour_by, agents, self.population);
-        let mut scene = self.dresser().body_parts(agents, &shown, &shot.lens, shot.eyes_of);
+        let mut scene = self.dresser(extra).body_parts(agents, &shown, &shot.lens, shot.eyes_of);
         scene.meshes.extend(&self.blocks);
         self.append_doors(&mut scene.meshes, shot);
         scene
     }
 
-    /// Where the parts of [`Self::scene`] are at another time: `posed` holds the agents of `agents` then.
-    pub(crate) fn places(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> PartPlaces {
-        let mut places = self.dresser().body_places(agents, posed, &shot.lens, shot.eyes_of);
+    /// Where the parts of [`Self::scene`] are at another time: `posed` holds the agents of `agents` then,
+    /// `extra` their extra joints.
+    pub(crate) fn places(
+        &self,
+        shot: &Shot,
+        agents: &[AgentFrame],
+        posed: &[AgentFrame],
+        extra: &ExtraFrame,
+    ) -> PartPlaces {
+        let mut places = self.dresser(extra).body_places(agents, posed, &shot.lens, shot.eyes_of);
         let mut standing = SceneParts { meshes: self.blocks.clone(), ..SceneParts::default() };
         self.append_doors(&mut standing.meshes, shot);
         places.extend(&PartPlaces::of(standing));
         places
     }
 
-    fn dresser(&self) -> Dresser<'_> {
-        Dresser { figures: &self.figures, wardrobe: self.wardrobe.as_ref(), population: self.population }
+    fn dresser<'s>(&'s self, extra: &'s ExtraFrame) -> Dresser<'s> {
+        Dresser { figures: &self.figures, wardrobe: self.wardrobe.as_ref(), population: self.population, extra }
     }
 
     fn append_doors(&self, meshes: &mut Meshes, shot: &Shot) {
@@ -134,9 +141,9 @@ impl<'a> CameraView<'a> {
         append_doors(meshes, &self.header.scenario, self.population, frame);
     }
 
-    /// Picture of all agents at a time.
-    pub fn draw(&self, shot: &Shot, agents: &[AgentFrame]) -> LinearPicture {
-        self.draw_scene(shot, &self.scene(shot, agents))
+    /// Picture of all agents at a time, with the rotations of their extra joints.
+    pub fn draw(&self, shot: &Shot, agents: &[AgentFrame], extra: &ExtraFrame) -> LinearPicture {
+        self.draw_scene(shot, &self.scene(shot, agents, extra))
     }
 
     /// Picture of a scene that is made already.

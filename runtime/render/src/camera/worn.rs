@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use fbcrowd_sim::recording::{AgentFrame, Header};
-use glam::{Vec2, Vec3};
-use motiondb::body::{JOINT_COUNT, Joint};
+use glam::{Quat, Vec2, Vec3};
+use motiondb::body::{ExtraJoint, JOINT_COUNT, Joint};
 use motiondb::character::{Character, CharacterFit, CharacterTexture, Dye, JointTransform, Material};
 use rayon::prelude::*;
 
@@ -22,6 +22,8 @@ const PIXELS_MAX: usize = 128 << 20;
 pub(crate) struct Wardrobe<'a> {
     header: &'a Header,
     fits: Vec<CharacterFit<'a>>,
+    /// Position of each extra joint in the recording's list; none where the recording lacks it.
+    extra_positions: Vec<Option<usize>>,
     /// Of each character.
     levels: Vec<Levels>,
     textures: Textures,
@@ -30,6 +32,8 @@ pub(crate) struct Wardrobe<'a> {
 /// An agent that wears a character.
 pub(crate) struct Wearer<'a> {
     pub(crate) agent: &'a AgentFrame,
+    /// Rotations of its extra joints, in the order of the recording's header.
+    pub(crate) extra: &'a [Quat],
     /// Index of the character.
     pub(crate) character: u32,
     /// Width of a pixel on a body of the crowd's size, m.
@@ -44,7 +48,12 @@ impl<'a> Wardrobe<'a> {
         let skeleton = header.skeleton();
         let fits: Vec<_> = characters.iter().map(|character| CharacterFit::new(character, skeleton)).collect();
         let levels = fits.par_iter().map(|fit| Levels::new(fit, skeleton)).collect();
-        Self { header, fits, levels, textures: Textures::new(characters) }
+        let is_named = |joint: ExtraJoint| {
+            let name = joint.name();
+            header.extra_joints.iter().position(|recorded| recorded.name == name)
+        };
+        let extra_positions = ExtraJoint::all().map(is_named).collect();
+        Self { header, fits, extra_positions, levels, textures: Textures::new(characters) }
     }
 
     /// The textures of all characters.
@@ -59,11 +68,15 @@ impl<'a> Wardrobe<'a> {
 
     /// Appends the mesh of an agent, as fine as its pixels show.
     pub(crate) fn append(&self, parts: &mut SceneParts, wearer: &Wearer) {
-        let Wearer { agent, character, pixel_m, shown } = *wearer;
+        let Wearer { agent, extra, character, pixel_m, shown } = *wearer;
         let Some(fit) = self.fits.get(character as usize) else { return };
         let joints = agent.pose.forward_kinematics(self.header.skeleton());
         let mut transforms = Vec::new();
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
+        if !extra.is_empty() {
+            let rotation = |joint: ExtraJoint| extra.get(self.extra_positions[joint.index()]?).copied();
+            fit.pose_extra(rotation, &mut transforms);
+        }
         let worn = Worn {
             fit,
             level: self.levels[character as usize].of_pixel(pixel_m),

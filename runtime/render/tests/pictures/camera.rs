@@ -10,7 +10,7 @@ use fbcrowd_render::error::RenderError;
 use fbcrowd_render::top_view::{PictureFormat, sample};
 use fbcrowd_render::visibility::{Lens, Owner, SamplePattern};
 use fbcrowd_sim::Population;
-use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording::{ExtraFrame, Recording};
 use fbcrowd_sim::scenario::{CameraFollow, CameraKey, CameraSpec, View};
 use glam::Vec3;
 use tiny_skia::Pixmap;
@@ -101,7 +101,7 @@ pub(crate) fn portrait(recording: &Recording, turn_rad: f32, size_px: [u32; 2]) 
     let (sin, cos) = libm::sincosf(body.root.facing_rad + turn_rad);
     let eye_m = middle_m + Vec3::new(6.0 * cos, 6.0 * sin, 0.7);
     let lens = Lens::perspective(size_px, eye_m, middle_m, 2.1 / 6.0 * size_px[0] as f32 / size_px[1] as f32);
-    view.draw(&Shot { lens, time_s: 0.4, eyes_of: None, fog_m: None }, &[body]).to_display()
+    view.draw(&Shot { lens, time_s: 0.4, eyes_of: None, fog_m: None }, &[body], &ExtraFrame::default()).to_display()
 }
 
 #[test]
@@ -132,7 +132,8 @@ fn agents_are_drawn_at_their_stature() {
         population.agents.iter_mut().for_each(|life| life.stature = stature);
         let view = CameraView::new(&header, &population, Quality::default(), ColourBy::Agent);
         let lens = Lens::perspective([640, 360], Vec3::new(0.0, -distance_m, 1.6), Vec3::Z, 1.0);
-        let scene = view.scene(&Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None }, &agents);
+        let scene =
+            view.scene(&Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None }, &agents, &ExtraFrame::default());
         let of_cones = scene.cones.iter().flat_map(|cone| cone.ends_m.map(|end_m| end_m.z + cone.radii_m[0]));
         let meshes = &scene.meshes;
         let bodies = meshes.triangles.iter().enumerate();

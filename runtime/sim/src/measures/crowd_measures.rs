@@ -108,6 +108,9 @@ pub struct Measures {
     pub states: Vec<StateMeasures>,
     /// The scenario's `[[measure]]` tables, in their order.
     pub places: Vec<PlaceMeasures>,
+    /// Names of the joints beside the 22 roles that a recording holds, such as `left_index_1`; none where it holds none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub extra_joints: Vec<String>,
 }
 
 /// Computes [`Measures`] from frames that come one by one, so that a crowd is measured while it runs.
@@ -246,6 +249,7 @@ impl Measuring {
             walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
             states: self.states.finish(&self.before),
             places: self.places.finish(population),
+            extra_joints: Vec::new(),
         }
     }
 
@@ -275,7 +279,8 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
         recording.read_frame(frame, &mut agents)?;
         measuring.push(population, &agents);
     }
-    Ok(measuring.finish(population))
+    let extra_joints = header.extra_joints.iter().map(|joint| joint.name.clone()).collect();
+    Ok(Measures { extra_joints, ..measuring.finish(population) })
 }
 
 /// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.

@@ -44,7 +44,7 @@ pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1};
 pub use frame::AgentFrame;
 pub use frame_packing::{FrameFault, PACKED_BYTES, unpack};
 pub use header::{Header, RecordedCharacter, RecordedDatabase, RecordedExtraJoint};
-pub use playback::{FrameTimes, duration_s, sample};
+pub use playback::{ExtraFrame, FrameTimes, duration_s, sample, sample_extra};
 pub use reader::Recording;
 pub use recorder::Recorder;
 pub use replay::{RecordedStep, Replay};

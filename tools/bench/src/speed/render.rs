@@ -22,7 +22,7 @@ use fbcrowd_render::shading::Occlusion;
 use fbcrowd_render::top_view::PictureFormat;
 use fbcrowd_render::visibility::{Lens, SamplePattern};
 use fbcrowd_sim::AgentId;
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, Recording};
+use fbcrowd_sim::recording::{AgentFrame, ExtraFrame, Header, Recorder, Recording};
 use fbcrowd_sim::scenario::{CameraSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use glam::{Vec2, Vec3};
@@ -153,7 +153,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
         for _ in 0..args.turns {
             one_thread.install(|| {
                 let stopwatch = Stopwatch::start();
-                let scene = view.scene(&shot, agents);
+                let scene = view.scene(&shot, agents, &ExtraFrame::default());
                 parts_s = parts_s.min(stopwatch.elapsed_s());
                 black_box(view.draw_scene(&shot, &scene));
                 frame_s = frame_s.min(stopwatch.elapsed_s());
@@ -168,7 +168,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let exr = exr_case(&db, &simulation, args.turns, &work)?;
     let view = CameraView::new(&header, &dressed, Quality::default(), ColourBy::Agent).with_characters(&characters);
     let shot = Shot { lens: wide_lens(34.0), time_s: 0.0, eyes_of: None, fog_m: None };
-    let drawn = view.scene(&shot, &small);
+    let drawn = view.scene(&shot, &small, &ExtraFrame::default());
     let cycles = CyclesCase::measure(args.blender_python.as_deref(), &drawn.meshes, &shot.lens);
     work.advance();
     work.end();

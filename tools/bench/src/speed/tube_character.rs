@@ -41,6 +41,7 @@ pub(crate) fn tube_character(skeleton: &Skeleton) -> Character {
         segment_radii_m: skeleton.segment_radii_m,
         mesh,
         textures: Vec::new(),
+        extra: Vec::new(),
     }
 }
 

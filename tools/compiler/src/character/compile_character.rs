@@ -8,13 +8,14 @@ use std::path::Path;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::json::validation::Checked;
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::character::{self, Character, CharacterJoint, CharacterMesh, WEIGHT_COUNT};
+use motiondb::character::{self, Character, CharacterExtra, CharacterJoint, CharacterMesh, WEIGHT_COUNT};
 use motiondb::files::input_file;
 
 use crate::character::bind_pose::BindPose;
 use crate::character::body_axes;
 use crate::character::body_mesh::{BodyMesh, MeshBuilder};
 use crate::character::extensions;
+use crate::character::extra_bones::{ExtraBone, extra_bones};
 use crate::character::joint_roles::{self, RolesFrom, SlotMap};
 use crate::character::mesh_instances::{ATTRIBUTES, draws_triangles, instances};
 use crate::character::primitive;
@@ -125,7 +126,10 @@ fn compiled(
     if mesh.triangles.is_empty() {
         return Err(CharacterReason::NoMesh);
     }
-    let character = assembled(path, &pose, &mut slots, &to_body, mesh)?;
+    let (mut character, kept) = assembled(path, &pose, &mut slots, &to_body, mesh)?;
+    let may_be_joints = joint_roles::joints(&pose, &is_mesh);
+    let bones = extra_bones(&pose, &slots, &may_be_joints, table.as_ref(), &to_body);
+    character.extra = bones.iter().filter_map(|bone| extra(&kept, bone)).collect();
     add_notes_of_roles(&slots, &mut notes);
     match character::first_fault(&character) {
         Some(fault) => Err(CharacterReason::Unsound { fault }),
@@ -158,14 +162,15 @@ fn add_notes_of_roles(slots: &SlotMap, notes: &mut Vec<CharacterNote>) {
     }
 }
 
-/// The character of a mesh in body axes, with the soles on z = 0 and the hips over the origin.
+/// The character of a mesh in body axes, with the soles on z = 0 and the hips over the origin; without extra joints. Also the
+/// slots of its joints.
 fn assembled(
     path: &Path,
     pose: &BindPose,
     slots: &mut SlotMap,
     to_body: &DMat4,
     mut mesh: BodyMesh,
-) -> Result<Character, CharacterReason> {
+) -> Result<(Character, Vec<usize>), CharacterReason> {
     let positions_m: Vec<DVec3> =
         (0..pose.parents.len()).map(|slot| to_body.transform_point3(pose.position_m(slot))).collect();
     let leaders = joint_roles::leaders(pose, slots);
@@ -186,7 +191,7 @@ fn assembled(
     let top_m = mesh.positions_m.iter().map(|position_m| position_m.z).fold(sole_m, f64::max);
     let kept = kept_slots(pose, slots, &mesh);
     let to_body = to_body.to_scale_rotation_translation().1;
-    Ok(Character {
+    let character = Character {
         name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         joints: kept.iter().map(|&slot| joint(pose, &kept, slot, to_body, positions_m[slot] - origin_m)).collect(),
         roles: slots.map(|slot| slot.and_then(|slot| place(&kept, slot)).map(|index| index as u32)),
@@ -198,7 +203,9 @@ fn assembled(
         segment_radii_m: std::array::from_fn::<f32, JOINT_COUNT, _>(|role| radii_m[role] as f32),
         textures: std::mem::take(&mut mesh.textures),
         mesh: on_kept_joints(mesh, &kept, origin_m),
-    })
+        extra: Vec::new(),
+    };
+    Ok((character, kept))
 }
 
 /// Slots of the nodes that have a role or move a vertex, and of those above them.
@@ -212,6 +219,13 @@ fn kept_slots(pose: &BindPose, slots: &SlotMap, mesh: &BodyMesh) -> Vec<usize> {
         }
     }
     (0..is_kept.len()).filter(|&slot| is_kept[slot]).collect()
+}
+
+/// The extra joint of a bone; none of one that moves no vertex, or has no axes.
+fn extra(kept: &[usize], bone: &ExtraBone) -> Option<CharacterExtra> {
+    let [parent_axes, axes] = [bone.parent_axes, bone.axes].map(|axes| axes.normalize().as_quat());
+    let joint = place(kept, bone.slot).filter(|_| parent_axes.is_finite() && axes.is_finite())? as u32;
+    Some(CharacterExtra { extra: bone.extra, joint, parent_axes, axes })
 }
 
 fn place(kept: &[usize], slot: usize) -> Option<usize> {

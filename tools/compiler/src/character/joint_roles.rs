@@ -69,7 +69,7 @@ pub(crate) fn slots_of_roles(
 }
 
 /// The nodes that may be joints: those of the scene, without meshes that nothing hangs from.
-fn joints(pose: &BindPose, is_mesh: &[bool]) -> Vec<usize> {
+pub(crate) fn joints(pose: &BindPose, is_mesh: &[bool]) -> Vec<usize> {
     let mut has_children = vec![false; pose.parents.len()];
     pose.parents.iter().flatten().for_each(|&parent| has_children[parent] = true);
     let is_joint =
@@ -78,7 +78,7 @@ fn joints(pose: &BindPose, is_mesh: &[bool]) -> Vec<usize> {
 }
 
 /// The bind pose of some nodes as a clip of one frame.
-fn clip(pose: &BindPose, kept: &[usize]) -> SourceClip {
+pub(crate) fn clip(pose: &BindPose, kept: &[usize]) -> SourceClip {
     let joint = |&slot: &usize| SourceJoint {
         name: pose.names[slot].clone(),
         parent: pose.parents[slot].and_then(|parent| kept.binary_search(&parent).ok()),

@@ -7,7 +7,8 @@
 //! 4. the meshes that are drawn (`mesh_instances`) and worn (`worn_meshes`), each primitive in bind space (`primitive`), colours from textures
 //!    (`texture`), all as one mesh (`body_mesh`)
 //! 5. soles, heights and girths (`sizes`)
-//! 6. the joints that are needed, in metres, with the soles on z = 0
+//! 6. fingers, toes and twist bones (`extra_bones`)
+//! 7. the joints that are needed, in metres, with the soles on z = 0
 //!
 //! Read `compile_character`, which has a line for each step, and then the files in that order; `reason` has all
 //! rejections and notes.
@@ -17,6 +18,7 @@ mod body_axes;
 mod body_mesh;
 mod compile_character;
 mod extensions;
+mod extra_bones;
 mod joint_roles;
 mod mesh_instances;
 mod primitive;

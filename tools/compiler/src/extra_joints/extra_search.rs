@@ -5,7 +5,7 @@
 //! name says.
 
 use motiondb::body::extra_joint::FINGER_JOINTS;
-use motiondb::body::{EXTRA_JOINTS_MAX, ExtraJoint, Joint, Side};
+use motiondb::body::{EXTRA_JOINTS_MAX, ExtraJoint, ExtraPart, Joint, Side};
 
 use crate::extra_joints::extra_names::{Digit, finger, is_twist, last_number, toe};
 use crate::read::source_clip::SourceClip;
@@ -91,23 +91,35 @@ impl<'a> ExtraSearch<'a> {
         (1..self.clip.frame_count()).any(|frame| local(frame).dot(local(0)).abs() < MOVING_COSINE)
     }
 
-    /// The joints of the fingers of a hand.
+    /// The joints of the fingers of a hand; none of a hand with fewer than two fingers beside the thumb, whose palm is not
+    /// known: the one finger of CMU's skeletons stays straight. A finger without a bone has no direction, and is none.
     fn fingers(&self, side: Side) -> Vec<SourceExtra> {
-        let hand = [ARMS[side.index()][2]];
+        // Bones of the palm may hang from the forearm, one of them in the role of the hand.
+        let [_, forearm, hand] = ARMS[side.index()];
         let mut of_digits: [Vec<usize>; DIGITS] = Default::default();
-        for (joint, digit) in self.digits(&hand, finger) {
+        for (joint, digit) in self.digits(&[hand, forearm], finger) {
             of_digits[digit].push(joint);
         }
-        let mut found = Vec::new();
+        let mut found: Vec<SourceExtra> = Vec::new();
         for (digit, joints) in of_digits.iter().enumerate() {
             let chain = self.chain(joints, digit == 0);
+            if chain.len() == 1 && !self.has_bone(chain[0]) {
+                continue;
+            }
             let kept = chain.iter().take(FINGER_JOINTS).enumerate();
             found.extend(kept.map(|(number, &source)| {
                 let end = chain.get(number + 1).copied().or_else(|| self.first_child(source));
                 SourceExtra { joint: ExtraJoint::finger(side, digit, number), source, end }
             }));
         }
-        found
+        let is_knuckle =
+            |extra: &&SourceExtra| matches!(extra.joint.part(), ExtraPart::Finger { finger: 1.., joint: 0 });
+        if found.iter().filter(is_knuckle).count() < 2 { Vec::new() } else { found }
+    }
+
+    /// Whether a joint's bone to its first child has a length.
+    fn has_bone(&self, joint: usize) -> bool {
+        self.first_child(joint).is_some_and(|end| self.clip.position(0, end) != self.clip.position(0, joint))
     }
 
     /// The toes of a foot; none of a foot of which only one is named.

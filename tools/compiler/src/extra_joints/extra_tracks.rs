@@ -6,10 +6,14 @@
 //! | joint | first direction, matched exactly | second direction |
 //! |---|---|---|
 //! | palm | wrist → knuckles, ±y | little → index knuckle, +x |
-//! | finger | to the next joint or the tip, ±y | the palm's x |
-//! | thumb | to the next joint or the tip, ±y | the palm's z |
+//! | finger | to the next joint or the tip, ±y | the palm's x; after the first joint, that of the joint before |
+//! | thumb | to the next joint or the tip, ±y | the palm's z; after the first joint, that of the joint before |
 //! | toe | to the tip, +x | the foot's z |
-//! | twist bone, finger without a bone | as its parent in the mean | |
+//! | twist bone, joint without a bone | as its parent in the mean | |
+//!
+//! Joints of a finger after the first are hinges: their second direction is that of the joint before, turned by the
+//! shortest arc from bone to bone, which no bend of the finger changes. A curled finger that is spread would turn the
+//! palm's x by 17°.
 //!
 //! Fingers are relative to the palm, which stands for the hand: so clips of different rigs share a frame, however the
 //! hand was calibrated. A palm of fewer than two known fingers is the hand. World frame of the clip: metres, z up.
@@ -80,6 +84,12 @@ impl ExtraTracks {
         self.joints.iter().map(turn).collect()
     }
 
+    /// Orientations of each joint's parent and of the joint itself, `[parent, own]`; the palm stands for the hand.
+    pub(crate) fn axes(&self, calibrated: &CalibratedTracks, frame: usize) -> Vec<[DQuat; 2]> {
+        let axes = |track: &ExtraTrack| [self.parent_turn(calibrated, track, frame), track.turn(calibrated, frame)];
+        self.joints.iter().map(axes).collect()
+    }
+
     /// Mean position of each joint relative to its parent, m.
     pub(crate) fn offsets_m(&self, calibrated: &CalibratedTracks) -> Vec<DVec3> {
         let tracks = &calibrated.tracks;
@@ -121,13 +131,26 @@ impl ExtraTracks {
             ExtraPart::Twist { .. } => return self.as_base(calibrated, extra),
         };
         let Some(bone) = bone else { return self.as_base(calibrated, extra) };
+        let parent = self.parent_of(extra.joint);
         let in_source = |frame| {
             let turn = calibrated.tracks.clip.orientation(frame, extra.source);
-            turn.inverse() * (self.base(calibrated, extra.joint, frame) * across)
+            let axes = match parent {
+                Some(parent) => parent.aimed(calibrated, frame, along, turn * bone),
+                None => self.base(calibrated, extra.joint, frame),
+            };
+            turn.inverse() * (axes * across)
         };
         let across_in_source = sampled_frames(calibrated.tracks.frame_count()).into_iter().map(in_source).sum();
         let (source, rest) = (basis(bone, across_in_source), basis(along, across));
         DQuat::from_mat3(&(source * rest.transpose()))
+    }
+
+    /// The extra joint that an extra joint hangs from.
+    fn parent_of(&self, joint: ExtraJoint) -> Option<&ExtraTrack> {
+        match joint.parent() {
+            ExtraParent::Role(_) => None,
+            ExtraParent::Extra(parent) => self.joints.iter().find(|other| other.extra.joint == parent),
+        }
     }
 
     /// K of a joint that is turned as its hand or limb in the mean.
@@ -163,6 +186,12 @@ impl ExtraTrack {
     /// Orientation of the joint, R(t) = G(t)·K.
     fn turn(&self, calibrated: &CalibratedTracks, frame: usize) -> DQuat {
         (calibrated.tracks.clip.orientation(frame, self.extra.source) * self.constant).normalize()
+    }
+
+    /// Orientation of the joint, turned by the shortest arc so that its bone, `along` at rest, points along another one.
+    fn aimed(&self, calibrated: &CalibratedTracks, frame: usize, along: DVec3, bone: DVec3) -> DQuat {
+        let turn = self.turn(calibrated, frame);
+        DQuat::from_rotation_arc(turn * along, bone.normalize()) * turn
     }
 }
 

@@ -56,6 +56,27 @@ impl Figure {
         Self { bones: bones.to_vec(), size: 1.0, armature: 1.0, is_z_up: false, has_normals: true, weight: 1.0 }
     }
 
+    /// With straight fingers of three joints: fingers along the arms, palms down, thumbs ahead of them.
+    pub(crate) fn with_fingers(mut self) -> Self {
+        for (hand, side, sign) in [("LeftHand", "Left", 1.0), ("RightHand", "Right", -1.0)] {
+            let wrist = self.bones.iter().position(|(name, ..)| *name == hand).unwrap();
+            let [x, y, z] = self.bones[wrist].2;
+            for (finger, name) in ["Thumb", "Index", "Middle", "Ring", "Pinky"].into_iter().enumerate() {
+                for joint in 0..3 {
+                    let parent = if joint == 0 { wrist } else { self.bones.len() - 1 };
+                    let along = joint as f32;
+                    let offset = match finger {
+                        0 => [0.03 + 0.02 * along, -0.01, 0.03 + 0.02 * along],
+                        _ => [0.09 + 0.03 * along, 0.0, 0.05 - 0.02 * finger as f32],
+                    };
+                    let name: &'static str = Box::leak(format!("{side}Hand{name}{}", joint + 1).into_boxed_str());
+                    self.bones.push((name, Some(parent), [x + sign * offset[0], y + offset[1], z + offset[2]]));
+                }
+            }
+        }
+        self
+    }
+
     /// Without the joints whose names contain a word, and those below them.
     pub(crate) fn without(&self, word: &str) -> Self {
         let is_out = |mut joint: usize| loop {

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use crate::figure::{Figure, glb};
 use crate::support::{bounds, check_rejected, compiled, joint_name, worn_at_rest};
+use crate::vrm::vrm;
 
 #[test]
 fn an_adult_has_all_roles_and_sizes() {
@@ -76,51 +77,6 @@ fn missing_normals_point_outwards() {
     // Smooth ones at the corners of boxes; some boxes share a corner.
     let alike = stated.normals.iter().zip(&computed.normals).filter(|(a, b)| a.dot(**b) > 0.2).count();
     assert!(alike * 10 > 8 * stated.normals.len(), "{alike} of {}", stated.normals.len());
-}
-
-/// VRM's names of the adult's bones.
-const VRM_BONES: [(&str, usize); 21] = [
-    ("hips", 0),
-    ("spine", 1),
-    ("chest", 2),
-    ("neck", 3),
-    ("head", 4),
-    ("leftShoulder", 5),
-    ("leftUpperArm", 6),
-    ("leftLowerArm", 7),
-    ("leftHand", 8),
-    ("rightShoulder", 9),
-    ("rightUpperArm", 10),
-    ("rightLowerArm", 11),
-    ("rightHand", 12),
-    ("leftUpperLeg", 13),
-    ("leftLowerLeg", 14),
-    ("leftFoot", 15),
-    ("leftToes", 16),
-    ("rightUpperLeg", 17),
-    ("rightLowerLeg", 18),
-    ("rightFoot", 19),
-    ("rightToes", 20),
-];
-
-/// The adult with names that mean nothing, and a bone table of VRM 0 or 1 without some bones.
-fn vrm(version: usize, left_out: &[&str]) -> (Value, Vec<u8>) {
-    let (mut json, bytes) = Figure::adult().document();
-    for (index, node) in json["nodes"].as_array_mut().unwrap().iter_mut().enumerate() {
-        node["name"] = json!(format!("J_{index}"));
-    }
-    let bones: Vec<_> = VRM_BONES.iter().filter(|(bone, _)| !left_out.contains(bone)).collect();
-    json["extensions"] = match version {
-        0 => {
-            let bones: Vec<Value> = bones.iter().map(|(bone, node)| json!({ "bone": bone, "node": node })).collect();
-            json!({ "VRM": { "humanoid": { "humanBones": bones } } })
-        }
-        _ => {
-            let bones = bones.iter().map(|(bone, node)| ((*bone).to_owned(), json!({ "node": node })));
-            json!({ "VRMC_vrm": { "humanoid": { "humanBones": Value::Object(bones.collect()) } } })
-        }
-    };
-    (json, bytes)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::Vec2;
+use glam::{Quat, Vec2};
 use motiondb::body::{Joint, RootFrame};
 use motiondb::character::{Character, CharacterFit, from_bytes, to_bytes};
 use motiondb_compiler::character::{CharacterReason, compile_character_bytes};
@@ -112,7 +112,7 @@ fn weights_that_do_not_fall_are_rejected() {
 
 /// A container with a valid checksum around a payload.
 fn sealed(payload: &[u8]) -> Vec<u8> {
-    motiondb::files::container::seal(motiondb::character::MAGIC, motiondb::character::VERSION, payload)
+    motiondb::files::container::seal(motiondb::character::MAGIC, motiondb::character::EXTRA_VERSION, payload)
 }
 
 proptest! {
@@ -120,7 +120,7 @@ proptest! {
 
     #[test]
     fn damaged_figures_never_panic(position in 0.0_f64..1.0, byte: u8, cut in 0.0_f64..1.5) {
-        let mut bytes = Figure::adult().glb();
+        let mut bytes = Figure::adult().with_fingers().glb();
         let at = (position * bytes.len() as f64) as usize;
         bytes[at] = byte;
         bytes.truncate((cut * bytes.len() as f64) as usize);
@@ -129,7 +129,7 @@ proptest! {
 
     #[test]
     fn damaged_character_files_are_errors_or_sound(position in 0.0_f64..1.0, byte: u8, cut in 0.0_f64..1.5) {
-        let bytes = to_bytes(&compiled(&Figure::adult().glb()).character);
+        let bytes = to_bytes(&compiled(&Figure::adult().with_fingers().glb()).character);
         let mut payload = bytes[24..].to_vec();
         let at = (position * payload.len() as f64) as usize;
         payload[at] = byte;
@@ -151,7 +151,9 @@ fn worn_at_rest_unchecked(character: &Character) -> usize {
     let (mut transforms, mut positions_m, mut normals) = (Vec::new(), Vec::new(), Vec::new());
     let joints = rest(&skeleton).forward_kinematics(&skeleton);
     let frame = RootFrame { position_m: Vec2::ZERO, forward: Vec2::X };
-    CharacterFit::new(character, &skeleton).pose(&skeleton, &joints, frame, &mut transforms);
+    let fit = CharacterFit::new(character, &skeleton);
+    fit.pose(&skeleton, &joints, frame, &mut transforms);
+    fit.pose_extra(|_| Some(Quat::IDENTITY), &mut transforms);
     character.mesh.skin(&transforms, &mut positions_m, &mut normals);
     positions_m.len()
 }

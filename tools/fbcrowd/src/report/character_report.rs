@@ -5,7 +5,7 @@ use std::path::Path;
 use fbcrowd_jobs::character::{LoadedCharacter, scaled_legs};
 use fbcrowd_sim::measures::CharacterSoles;
 use motiondb::body::{Joint, Skeleton};
-use motiondb::character::{Character, CharacterFit};
+use motiondb::character::{Character, CharacterExtra, CharacterFit};
 use motiondb_compiler::character::{CharacterNote, RolesFrom};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -32,6 +32,9 @@ pub(crate) struct CharacterReport {
     roles_from: Option<&'static str>,
     /// Every role of the canonical humanoid and the joint that has it, in order.
     roles: Vec<RoleOfJoint>,
+    /// Joints beside the 22 roles that poses move: of fingers and toes, and twist bones; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    extra_joints: Vec<ExtraOfJoint>,
     /// Meshes that are worn, by the nodes that draw them.
     meshes: Vec<MeshReport>,
     /// Width and height of each texture that is kept, pixels.
@@ -69,6 +72,15 @@ struct RoleOfJoint {
     role: &'static str,
     /// Name of the joint in the file; null where no joint has the role.
     joint: Option<String>,
+}
+
+/// An extra joint and its joint.
+#[derive(JsonSchema, Serialize)]
+struct ExtraOfJoint {
+    /// Name of the extra joint, such as `left_index_1`.
+    extra: String,
+    /// Name of the joint in the file.
+    joint: String,
 }
 
 /// A mesh of a character.
@@ -151,6 +163,7 @@ impl CharacterReport {
                 RolesFrom::BindPose => "bind_pose",
             }),
             roles: roles(character),
+            extra_joints: extra_joints(character),
             meshes: meshes(character),
             textures_px: character.textures.iter().map(|texture| texture.size_px).collect(),
             joints: character.joints.len(),
@@ -187,6 +200,9 @@ impl CharacterReport {
         let mut text = format!("{:<20}joint\n", "role");
         for RoleOfJoint { role, joint } in &self.roles {
             text += &format!("{role:<20}{}\n", joint.as_deref().map_or("–".into(), one_line));
+        }
+        for ExtraOfJoint { extra, joint } in &self.extra_joints {
+            text += &format!("{extra:<20}{}\n", one_line(joint));
         }
         let row = |name: &str, value: String| format!("{name:<20}{value}\n");
         let counts = [(self.joints, "joints"), (self.vertices, "vertices"), (self.triangles, "triangles")];
@@ -238,4 +254,12 @@ fn roles(character: &Character) -> Vec<RoleOfJoint> {
         joint: character.joint(role).map(|joint| character.joints[joint].name.clone()),
     };
     Joint::ALL.into_iter().map(role).collect()
+}
+
+fn extra_joints(character: &Character) -> Vec<ExtraOfJoint> {
+    let extra = |known: &CharacterExtra| ExtraOfJoint {
+        extra: known.extra.name(),
+        joint: character.joints[known.joint as usize].name.clone(),
+    };
+    character.extra.iter().map(extra).collect()
 }

@@ -80,6 +80,10 @@ pub struct MeasuresMirror {
     states: Vec<StateMeasuresMirror>,
     /// The scenario's `[[measure]]` tables, in their order.
     places: Vec<PlaceMeasuresMirror>,
+    /// Names of the joints beside the 22 roles that the recording holds, such as `left_index_1`; left out where it holds
+    /// none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    extra_joints: Vec<String>,
 }
 
 /// Mirror of [`fbcrowd_sim::measures::StateMeasures`].

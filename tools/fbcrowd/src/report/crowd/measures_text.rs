@@ -22,8 +22,18 @@ pub(crate) fn text(measures: &Measures) -> String {
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
+        + &extra_joints(&measures.extra_joints)
         + &states(&measures.states)
         + &places_text::text(&measures.places)
+}
+
+/// A line where the recording holds joints beside the 22 roles.
+fn extra_joints(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => format!("{:<25}1 beside the 22 roles: {only}\n", "joints"),
+        [first, .., last] => format!("{:<25}{} beside the 22 roles: {first} … {last}\n", "joints", names.len()),
+    }
 }
 
 /// A line for each state that any agent was in.

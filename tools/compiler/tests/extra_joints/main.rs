@@ -1,13 +1,12 @@
 //! Claims about joints beside the 22 roles, on bundled clips with made-up hands.
-//!
-//! The clips face z, x is to the left, y up, the arms straight out: a left finger points along x, and curls about −z.
+
+mod hands;
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 
 use glam::{DQuat, Quat};
+use hands::{Bone, FINGERS, both, bundled, fingers, text_with_hands, with_joints};
 use motiondb::body::{ExtraJoint, Joint, Side};
 use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::files::database_file;
@@ -15,42 +14,8 @@ use motiondb::motion::{ExtraMotion, MotionDb, PHASE_COUNT};
 use motiondb::validate::first_broken;
 use motiondb_compiler::{HumanClip, Options, compile, import_bytes};
 
-const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 /// Greatest error of an angle, degrees.
 const ERROR_MAX_DEG: f64 = 0.5;
-
-/// A joint that is added to a clip.
-struct Bone {
-    name: String,
-    offset_cm: [f64; 3],
-    /// Axis about which it turns.
-    axis: char,
-    /// Rotation at a time, degrees.
-    turn_deg: Box<dyn Fn(f64) -> f64>,
-    children: Vec<Bone>,
-}
-
-impl Bone {
-    fn write_joint(&self, out: &mut String) {
-        let [x, y, z] = self.offset_cm;
-        write!(out, "JOINT {}\n{{\nOFFSET {x} {y} {z}\nCHANNELS 1 {}rotation\n", self.name, self.axis).unwrap();
-        self.children.iter().for_each(|child| child.write_joint(out));
-        if self.children.is_empty() {
-            write!(out, "End Site\n{{\nOFFSET {x} {y} {z}\n}}\n").unwrap();
-        }
-        out.push_str("}\n");
-    }
-
-    fn write_values(&self, time_s: f64, out: &mut String) {
-        write!(out, " {:.4}", (self.turn_deg)(time_s)).unwrap();
-        self.children.iter().for_each(|child| child.write_values(time_s, out));
-    }
-}
-
-/// The text of a bundled clip.
-fn bundled(name: &str) -> String {
-    fs::read_to_string(Path::new(CLIPS).join(format!("{name}.bvh"))).unwrap()
-}
 
 /// The clip of a BVH text.
 fn imported(name: &str, text: &str) -> HumanClip {
@@ -59,59 +24,7 @@ fn imported(name: &str, text: &str) -> HumanClip {
 
 /// A bundled clip whose hands, `[left, right]`, have these joints.
 fn clip_with_hands(name: &str, hands: &[Vec<Bone>; 2]) -> HumanClip {
-    let mut text = bundled(name);
-    for (hand, bones) in ["JOINT LeftHand", "JOINT RightHand"].into_iter().zip(hands) {
-        if !bones.is_empty() {
-            let end = text.find(hand).unwrap() + text[text.find(hand).unwrap()..].find("End Site").unwrap();
-            let after = end + text[end..].find('}').unwrap() + 1;
-            text.replace_range(end..after, "");
-            text = with_joints(&text, end, bones);
-        }
-    }
-    imported(name, &text)
-}
-
-/// A BVH text with further joints at a position of its hierarchy.
-fn with_joints(text: &str, position: usize, bones: &[Bone]) -> String {
-    let (before, after) = text.split_at(position);
-    let counts = before.lines().filter_map(|line| line.trim().strip_prefix("CHANNELS "));
-    let channels: usize = counts.map(|rest| rest.split(' ').next().unwrap().parse::<usize>().unwrap()).sum();
-    let mut joints = String::new();
-    bones.iter().for_each(|bone| bone.write_joint(&mut joints));
-    let (skeleton, motion) = after.split_once("Frame Time: ").unwrap();
-    let (frame_time_s, rows) = motion.split_once('\n').unwrap();
-    let row = |(frame, row): (usize, &str)| {
-        let values: Vec<&str> = row.split_whitespace().collect();
-        let mut added = String::new();
-        let time_s = frame as f64 * frame_time_s.trim().parse::<f64>().unwrap();
-        bones.iter().for_each(|bone| bone.write_values(time_s, &mut added));
-        format!("{}{added} {}\n", values[..channels].join(" "), values[channels..].join(" "))
-    };
-    let rows: String = rows.lines().enumerate().map(row).collect();
-    format!("{before}{joints}{skeleton}Frame Time: {frame_time_s}\n{rows}")
-}
-
-const FINGERS: [&str; 5] = ["Thumb", "Index", "Middle", "Ring", "Pinky"];
-
-/// The five fingers of a hand; each joint curls by an angle, degrees, of the finger and the time.
-fn fingers(side: Side, curl_deg: fn(usize, f64) -> f64) -> Vec<Bone> {
-    let (sign, word) = (f64::from(side.sign()), ["Left", "Right"][side.index()]);
-    let finger = |finger: usize| {
-        let bone = |joint: usize, children: Vec<Bone>| Bone {
-            name: format!("{word}Hand{}{}", FINGERS[finger], joint + 1),
-            offset_cm: match (finger, joint) {
-                (0, 0) => [sign * 3.0, -1.0, 3.0],
-                (0, _) => [sign * 2.5, 0.0, 2.5],
-                (_, 0) => [sign * 9.0, 0.0, 5.0 - 2.0 * finger as f64],
-                _ => [sign * 3.5, 0.0, 0.0],
-            },
-            axis: 'Z',
-            turn_deg: Box::new(move |time_s| -sign * curl_deg(finger, time_s)),
-            children,
-        };
-        bone(0, vec![bone(1, vec![bone(2, Vec::new())])])
-    };
-    (0..5).map(finger).collect()
+    imported(name, &text_with_hands(name, hands))
 }
 
 /// The canonical rotation of a finger's joint that curls.
@@ -137,10 +50,6 @@ fn database(clips: Vec<HumanClip>) -> MotionDb {
     let db = compile(clips, &Options::default(), &|_| ()).unwrap();
     assert_eq!(first_broken(&db), None);
     db
-}
-
-fn both(curl_deg: fn(usize, f64) -> f64) -> [Vec<Bone>; 2] {
-    Side::BOTH.map(|side| fingers(side, curl_deg))
 }
 
 #[test]
@@ -175,6 +84,48 @@ fn curled_bones_of_a_rig_are_a_curl() {
     for (extra, found) in clip.extra.iter().zip(&clip.frames[0].extra).skip(6) {
         let wanted = if extra.joint.index() / 2 % 3 == 1 { 25.0 } else { 0.0 };
         check_angle(*found, curled(extra.joint.side(), wanted), &extra.joint.name());
+    }
+}
+
+/// CMU's skeletons: a finger that stands for all, and a thumb without a bone.
+#[test]
+fn a_hand_of_one_finger_has_none() {
+    let bone = |name: &str, x_cm: f64| Bone {
+        name: name.into(),
+        offset_cm: [x_cm, 0.0, 0.0],
+        axis: 'Z',
+        turn_deg: Box::new(|time_s| 10.0 * libm::sin(TAU * time_s)),
+        children: Vec::new(),
+    };
+    let mut hands = [vec![bone("LeftHandIndex1", 9.0), bone("LThumb", 0.0)], Vec::new()];
+    let clip = clip_with_hands("walk_110", &hands);
+    assert!(clip.extra.is_empty(), "{:?}", clip.extra);
+    let left_out = Diagnostic::Note(Note::JointsLeftOut { moving: 2, kept: 0 });
+    assert!(clip.source.diagnostics.contains(&left_out), "{:?}", clip.source.diagnostics);
+    hands[0].push(bone("LeftHandPinky1", 8.0));
+    let names = |clip: &HumanClip| clip.extra.iter().map(|extra| extra.joint.name()).collect::<Vec<_>>();
+    assert_eq!(names(&clip_with_hands("walk_110", &hands)), ["left_index_1", "left_little_1"]);
+}
+
+/// The knuckles spread, the next joints curl: their hinges are those of the fingers, not of the palm.
+#[test]
+fn spread_fingers_curl_about_their_own_hinges() {
+    let mut hands = both(|_, _| 0.0);
+    for (side, bones) in Side::BOTH.into_iter().zip(&mut hands) {
+        let sign = f64::from(side.sign());
+        for finger in &mut bones[1..] {
+            (finger.axis, finger.turn_deg) = ('Y', Box::new(|_| 20.0));
+            finger.children[0].turn_deg = Box::new(move |time_s| -sign * (50.0 + 30.0 * libm::sin(TAU * time_s)));
+        }
+    }
+    let clip = clip_with_hands("walk_110", &hands);
+    for (frame, pose) in clip.frames.iter().enumerate() {
+        let time_s = (clip.first_frame + frame) as f64 / clip.frame_rate_hz;
+        let second = |joint: ExtraJoint| joint.index() / 2 % 3 == 1;
+        for (extra, found) in clip.extra.iter().zip(&pose.extra).skip(6).filter(|(extra, _)| second(extra.joint)) {
+            let wanted = curled(extra.joint.side(), 50.0 + 30.0 * libm::sin(TAU * time_s));
+            check_angle(*found, wanted, &extra.joint.name());
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Playback: a recording at any time. Frames of a picture have a rate of their own, recorded frames the step's.
+//! Bodies at any time of a recording.
 //!
 //! Between two recorded frames root and pose are blended. Then each leg reaches for its foot, whose path is made of its
 //! recorded places, so that planted feet stay planted. Births, removals and teleports are not blended: until the later
@@ -15,60 +15,9 @@ use crate::maths::angle::yaw;
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
+use crate::recording::playback::times::{Between, between};
 use crate::recording::reader::Recording;
-use crate::scenario::{FrameRate, Scenario, ShotSpec};
 use crate::synthesis::pose::{FootPose, PosedLeg, ik};
-
-/// Distance of a time from a recorded frame up to which that frame is shown unchanged, steps.
-const SAME_FRAME_STEPS: f64 = 1e-3;
-
-/// Times and numbers of the frames of a sequence.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameTimes {
-    /// Number of the first frame.
-    pub first_frame: u32,
-    /// Time of the first frame, s.
-    pub start_s: f64,
-    /// Frame rate.
-    pub rate: FrameRate,
-}
-
-impl FrameTimes {
-    /// The frames of a shot of a scenario.
-    pub fn of(shot: &ShotSpec, scenario: &Scenario) -> Self {
-        let rate = FrameRate::of(shot.fps.unwrap_or(scenario.view.frame_rate_hz));
-        Self { first_frame: shot.first_frame, start_s: f64::from(shot.preroll_s), rate }
-    }
-
-    /// Number of frames up to a time; none where the first one is later.
-    pub fn count(&self, end_s: f64) -> u32 {
-        let shown_s = end_s - self.start_s;
-        let frames = shown_s * self.rate.hz() + SAME_FRAME_STEPS;
-        if frames < 0.0 { 0 } else { frames as u32 + 1 }
-    }
-
-    /// Times that a frame of a shot blends, s, around its own time; that alone where frames are sharp. No time lies outside
-    /// the recording, which ends at `end_s`.
-    pub fn moments_s(&self, number: u32, shot: &ShotSpec, end_s: f64) -> Vec<f64> {
-        let (time_s, count) = (self.time_s(number), shot.samples_per_frame.max(1));
-        if count == 1 {
-            return vec![time_s];
-        }
-        let open_s = f64::from(shot.shutter_deg) / 360.0 / self.rate.hz();
-        let shift = |moment: u32| (f64::from(moment) + 0.5) / f64::from(count) - 0.5;
-        (0..count).map(|moment| (time_s + open_s * shift(moment)).clamp(0.0, end_s)).collect()
-    }
-
-    /// Time of a frame, by its number, s.
-    pub fn time_s(&self, number: u32) -> f64 {
-        self.start_s + self.rate.time_s(number - self.first_frame)
-    }
-}
-
-/// Time of a recording's last frame, s.
-pub fn duration_s(recording: &Recording) -> f64 {
-    recording.frame_count().saturating_sub(1) as f64 * f64::from(recording.header().scenario.dt_s)
-}
 
 /// All present agents at a time, s; between two recorded frames, a blend of both. An agent is shown from its frame of
 /// birth up to its removal; one that the later frame lacks, or to which it is teleported, is shown as in the earlier one.
@@ -76,18 +25,13 @@ pub fn duration_s(recording: &Recording) -> f64 {
 /// # Errors
 /// If a frame cannot be read.
 pub fn sample(recording: &Recording, time_s: f64) -> Result<Vec<AgentFrame>, RecordingError> {
-    let step = time_s / f64::from(recording.header().scenario.dt_s);
-    let nearest = step.round();
-    let last = recording.frame_count().saturating_sub(1);
+    let Between { frame, later } = between(recording, time_s);
     let mut agents = Vec::new();
-    if (step - nearest).abs() < SAME_FRAME_STEPS || step >= last as f64 {
-        recording.read_frame((nearest as usize).min(last), &mut agents)?;
-        return Ok(agents);
-    }
-    let (mut later, after) = (Vec::new(), step as usize + 1);
-    recording.read_frame(step as usize, &mut agents)?;
+    recording.read_frame(frame, &mut agents)?;
+    let Some((after, share)) = later else { return Ok(agents) };
+    let mut later = Vec::new();
     recording.read_frame(after, &mut later)?;
-    let (share, skeleton) = (step.fract() as f32, recording.header().skeleton());
+    let skeleton = recording.header().skeleton();
     let lives = &recording.population().agents;
     let jumps = |agent: &AgentFrame| lives.get(agent.id.index()).is_some_and(|life| life.is_teleported(after as u32));
     let next = |agent: &AgentFrame| later.binary_search_by_key(&agent.id, |next| next.id).ok();
@@ -195,16 +139,6 @@ mod tests {
             let found = blend(&at(from), &at(to), 0.5, &db.skeleton).root.facing_rad;
             assert!((found - middle).abs() < 1e-4, "{from} {to} {found}");
         }
-    }
-
-    #[test]
-    fn frames_are_counted_and_timed_from_the_end_of_the_preroll() {
-        let times = FrameTimes { first_frame: 101, start_s: 0.5, rate: FrameRate::of(24.0) };
-        assert_eq!((times.count(2.5), times.count(0.5), times.count(0.4)), (49, 1, 0));
-        assert_eq!(times.time_s(101 + 24), 1.5);
-        let shot = ShotSpec { samples_per_frame: 2, shutter_deg: 180.0, ..ShotSpec::default() };
-        let [first, second] = times.moments_s(101, &shot, 9.0)[..] else { panic!("two moments") };
-        assert!((first - (0.5 - 1.0 / 192.0)).abs() < 1e-12 && (second - (0.5 + 1.0 / 192.0)).abs() < 1e-12);
     }
 
     #[test]
