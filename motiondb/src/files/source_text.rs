@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::files::input_file;
+use crate::files::list_entries;
 use crate::files::parser_words::in_plain_words;
 
 /// Greatest length of a text, bytes: ten thousand obstacles of a hundred corners. The TOML parser takes up to 80 times
@@ -116,14 +117,10 @@ impl SourceText {
         begins.any(|line| line.split(is_end).next().is_some_and(|key| keys.contains(&key)))
     }
 
-    /// The bytes of the header `[[name]]` that follows some others of that name.
-    pub fn header_after(&self, name: &str, others: usize) -> Option<Range<usize>> {
-        let inner = |line: &str| Some(line.trim_start().strip_prefix("[[")?.split_once("]]")?.0.trim() == name);
-        let mut lines = self.text.split_inclusive('\n').scan(0, |end, line| {
-            *end += line.len();
-            Some((*end - line.len()..*end, line))
-        });
-        lines.by_ref().filter(|(_, line)| inner(line) == Some(true)).nth(others).map(|(bytes, _)| bytes)
+    /// The bytes at which an entry of a list of tables begins that follows some others; `name` is the list's key. The text
+    /// is not parsed.
+    pub fn entry_after(&self, name: &str, others: usize) -> Option<Range<usize>> {
+        list_entries::entry_after(&self.text, name, others)
     }
 }
 

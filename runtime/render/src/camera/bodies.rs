@@ -11,7 +11,7 @@ use crate::figure::{Figures, Wanted};
 use crate::passes::motion::PartPlaces;
 use crate::raster::palette::{Rgb, decode_srgb};
 use crate::visibility::lens::NEAR_M;
-use crate::visibility::{Lens, SceneParts};
+use crate::visibility::{Lens, MeshSize, SceneParts};
 
 /// Middle of a body above the ground, and its reach from there, m.
 const BODY_M: [f32; 2] = [0.9, 1.2];
@@ -65,6 +65,20 @@ impl Dresser<'_> {
         self.each_chunk(&seen, |at| shown[at], |parts| parts, append);
         scene.textures = self.wardrobe.map(Wardrobe::textures).unwrap_or_default();
         scene
+    }
+
+    /// Size of the meshes of [`Self::body_parts`].
+    pub(crate) fn mesh_size(&self, agents: &[AgentFrame], lens: &Lens, hidden: Option<u32>) -> MeshSize {
+        let seen = agents.iter().filter(|agent| Some(agent.id.0) != hidden && is_near_picture(lens, agent));
+        let size = |agent: &AgentFrame| {
+            let stature = self.stature(agent);
+            let height_px = stature * height_px(lens, agent);
+            match self.character_of(agent) {
+                Some((wardrobe, character)) => wardrobe.mesh_size(character, HEIGHT_M / height_px),
+                None => self.figures.mesh_size(&Wanted { agent, look: dressed(agent, None), stature, height_px }),
+            }
+        };
+        seen.map(size).sum()
     }
 
     /// Where the parts of [`Self::body_parts`] are at another time: `posed` holds the same agents then.

@@ -11,24 +11,13 @@ use motiondb::memory;
 use rayon::prelude::*;
 
 use crate::camera::exr_passes;
+use crate::camera::memory_need::frame_bytes;
 use crate::camera::options::CameraOptions;
-use crate::camera::take::{Take, find_camera, size_px};
+use crate::camera::take::{Take, find_camera};
 use crate::error::RenderError;
-use crate::passes::multi_channel_exr::STRIP_PIXELS;
-use crate::passes::tile_passes::channels;
 use crate::raster::png_frame::{self, RgbPicture, rgb_picture};
-use crate::top_view::sequence::{PictureFormat, frame_numbers, frame_times, make_folder, shot_of};
+use crate::top_view::sequence::{PictureFormat, frame_numbers, frame_times, make_folder};
 
-/// Bytes of a PNG frame for each pixel while it is drawn and encoded.
-const PIXEL_BYTES: usize = 24;
-/// Bytes of a blurred frame for each pixel: the sum of light, the picture that is added, its mean.
-const BLUR_BYTES: usize = 28;
-/// Bytes of each matte of a blurred frame, for each pixel.
-const MATTE_BYTES: usize = 20;
-/// Bytes of each pixel and channel of the strip of an EXR frame that is drawn and compressed: values, lines, file.
-const STRIP_BYTES: usize = 12;
-/// Bytes of a frame for its parts and its shadow map.
-const FRAME_BYTES: usize = 160 << 20;
 /// Greatest number of bytes of all frames that are drawn at once.
 const AT_ONCE_BYTES: usize = 1 << 30;
 
@@ -64,8 +53,8 @@ pub fn render_camera_sequence(
     observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
     let numbers = numbers(recording, options)?;
-    let at_once = at_once(recording, options, numbers.len())?;
     let take = Take::new(recording, options)?;
+    let at_once = at_once(&take, &numbers)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
     let render = |number: &u32| {
@@ -99,8 +88,8 @@ pub fn draw_camera_sequence<E: From<RenderError>>(
     mut show: impl FnMut(RgbPicture) -> Result<(), E>,
 ) -> Result<usize, E> {
     let numbers = numbers(recording, options)?;
-    let at_once = at_once(recording, options, numbers.len())?;
     let take = Take::new(recording, options)?;
+    let at_once = at_once(&take, &numbers)?;
     let mut done = 0;
     for chunk in numbers.chunks(at_once) {
         let draw = |number: &u32| -> Result<RgbPicture, RenderError> { rgb_picture(&mut &take.picture(*number)?) };
@@ -118,20 +107,9 @@ pub fn draw_camera_sequence<E: From<RenderError>>(
 ///
 /// # Errors
 /// If the system does not give the memory that they need.
-fn at_once(recording: &Recording, options: &CameraOptions, frames: usize) -> Result<usize, RenderError> {
-    let [width, height] = size_px(recording, options).map(|side| side as usize);
-    let is_blurred = shot_of(recording, options.shot.as_ref()).samples_per_frame > 1;
-    let blur_bytes = if is_blurred { BLUR_BYTES + MATTE_BYTES * options.passes.mattes().count() } else { 0 };
-    let pixels = width * height;
-    let picture_bytes = match options.format {
-        PictureFormat::Png => (PIXEL_BYTES + blur_bytes) * pixels,
-        PictureFormat::Exr => {
-            let channels = 4 + channels(&options.passes, options.quality.samples.count()).len();
-            blur_bytes * pixels + STRIP_BYTES * channels * STRIP_PIXELS.min(pixels)
-        }
-    };
-    let frame_bytes = FRAME_BYTES + picture_bytes;
-    let at_once = (AT_ONCE_BYTES / frame_bytes).clamp(1, rayon::current_num_threads()).min(frames);
+fn at_once(take: &Take<'_>, numbers: &[u32]) -> Result<usize, RenderError> {
+    let frame_bytes = frame_bytes(take, numbers);
+    let at_once = (AT_ONCE_BYTES / frame_bytes).clamp(1, rayon::current_num_threads()).min(numbers.len());
     if !memory::has_room(at_once * frame_bytes) {
         return Err(RenderError::OutOfMemory { mib: (at_once * frame_bytes) >> 20 });
     }

@@ -33,7 +33,7 @@ pub(crate) struct Take<'a> {
     shot: ShotSpec,
     captions: CameraCaptions,
     camera: CameraSpec,
-    size_px: [u32; 2],
+    pub(crate) size_px: [u32; 2],
 }
 
 /// One moment of a take.
@@ -72,6 +72,11 @@ impl<'a> Take<'a> {
             camera,
             size_px,
         })
+    }
+
+    /// Whether frames blend several moments.
+    pub(crate) fn is_blurred(&self) -> bool {
+        self.shot.samples_per_frame > 1
     }
 
     /// Times that a frame blends, s.
@@ -159,7 +164,7 @@ impl<'a> Take<'a> {
 }
 
 /// Width and height of the pictures, pixels.
-pub(crate) fn size_px(recording: &Recording, options: &CameraOptions) -> [u32; 2] {
+fn size_px(recording: &Recording, options: &CameraOptions) -> [u32; 2] {
     let view = &recording.header().scenario.view;
     options.size_px.unwrap_or([view.width, view.height])
 }

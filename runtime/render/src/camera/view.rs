@@ -23,7 +23,7 @@ use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
 use crate::shading::shader::Shader;
 use crate::shading::shadow_map::ShadowMap;
-use crate::visibility::{Lens, Meshes, PreparedTiles, SamplePattern, SceneParts, TILE_PX, TileSamples};
+use crate::visibility::{Lens, MeshSize, Meshes, PreparedTiles, SamplePattern, SceneParts, TILE_PX, TileSamples};
 
 /// Distance from the eye up to which walls throw shadows, m.
 const WALL_SHADOW_M: f32 = 45.0;
@@ -114,6 +114,12 @@ impl<'a> CameraView<'a> {
         scene.meshes.extend(&self.blocks);
         self.append_doors(&mut scene.meshes, shot);
         scene
+    }
+
+    /// Size of the meshes of [`Self::scene`].
+    pub(crate) fn mesh_size(&self, shot: &Shot, agents: &[AgentFrame]) -> MeshSize {
+        let bodies = self.dresser(&ExtraFrame::default()).mesh_size(agents, &shot.lens, shot.eyes_of);
+        [bodies, self.blocks.size()].into_iter().sum()
     }
 
     /// Where the parts of [`Self::scene`] are at another time: `posed` holds the agents of `agents` then,

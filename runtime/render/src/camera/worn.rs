@@ -9,7 +9,7 @@ use motiondb::character::{Character, CharacterFit, CharacterTexture, Dye, JointT
 use rayon::prelude::*;
 
 use crate::detail::{Level, Levels};
-use crate::visibility::{Cone, Owner, Paint, SceneParts, Texture};
+use crate::visibility::{Cone, MeshSize, Owner, Paint, SceneParts, Texture};
 
 /// Material of characters.
 const CHARACTER: u32 = 1;
@@ -64,6 +64,15 @@ impl<'a> Wardrobe<'a> {
     /// Whether there is a character of this index.
     pub(crate) fn has(&self, character: u32) -> bool {
         (character as usize) < self.fits.len()
+    }
+
+    /// Size of the mesh that [`Self::append`] appends.
+    pub(crate) fn mesh_size(&self, character: u32, pixel_m: f32) -> MeshSize {
+        let mesh = self.levels.get(character as usize).map(|levels| &levels.of_pixel(pixel_m).mesh);
+        mesh.map_or(MeshSize::default(), |mesh| MeshSize {
+            vertices: mesh.positions_m.len(),
+            triangles: mesh.triangles.len(),
+        })
     }
 
     /// Appends the mesh of an agent, as fine as its pixels show.

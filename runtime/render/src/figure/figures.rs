@@ -9,7 +9,7 @@ use crate::figure::cone_figure::ConeFigure;
 use crate::figure::style::{Age, Clothes, HairStyle, Sex, Style};
 use crate::figure::template::{PosedJoint, Template};
 use crate::raster::palette::Look;
-use crate::visibility::{Owner, SceneParts};
+use crate::visibility::{MeshSize, Owner, SceneParts};
 
 /// Height in the picture up to which a body is drawn by cones, pixels.
 const CONES_PX: f32 = 46.0;
@@ -148,13 +148,26 @@ impl Figures {
             cones.append(&mut parts.cones);
             return;
         }
-        let fineness = COARSE_PX.iter().filter(|limit| height_px > *limit).count();
-        let first = (style.build() as usize * Fineness::ALL.len() + fineness) * Piece::ALL.len();
-        for (piece, template) in Piece::ALL.iter().zip(&self.pieces[first..]) {
-            if piece.is_of(&style) {
-                template.append(&mut parts.meshes, &joints, &colours, owner);
-            }
+        for template in self.templates(&style, *height_px) {
+            template.append(&mut parts.meshes, &joints, &colours, owner);
         }
+    }
+
+    /// Size of the mesh that [`Self::append`] appends.
+    pub(crate) fn mesh_size(&self, wanted: &Wanted) -> MeshSize {
+        if wanted.height_px < CONES_PX {
+            return MeshSize::default();
+        }
+        let style = Style::of(wanted.agent.id.0, wanted.stature);
+        self.templates(&style, wanted.height_px).map(Template::size).sum()
+    }
+
+    /// The templates of a style's pieces, as fine as a height in the picture needs.
+    fn templates(&self, style: &Style, height_px: f32) -> impl Iterator<Item = &Template> {
+        let fineness = COARSE_PX.iter().filter(|limit| height_px > **limit).count();
+        let first = (style.build() as usize * Fineness::ALL.len() + fineness) * Piece::ALL.len();
+        let pieces = Piece::ALL.iter().zip(&self.pieces[first..]);
+        pieces.filter(|(piece, _)| piece.is_of(style)).map(|(_, template)| template)
     }
 
     /// The joints of a frame, in the world, with a head of a size. Elders stoop.

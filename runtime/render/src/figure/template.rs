@@ -5,7 +5,7 @@ use motiondb::body::Joint;
 
 use crate::figure::section::Section;
 use crate::figure::style::{CLOTHS, Cloth};
-use crate::visibility::{Meshes, Owner};
+use crate::visibility::{MeshSize, Meshes, Owner};
 
 /// Radius of a thigh with trousers at hip and knee, and the room between it and cloth, on the reference body, m.
 const THIGH_M: [f32; 2] = [0.086, 0.066];
@@ -72,6 +72,11 @@ impl Vertex {
 }
 
 impl Template {
+    /// Number of vertices and triangles.
+    pub(crate) fn size(&self) -> MeshSize {
+        MeshSize { vertices: self.vertices.len(), triangles: self.triangles.len() }
+    }
+
     /// Computes the normals of the rest pose.
     pub(crate) fn finish(mut self) -> Self {
         let positions: Vec<Vec3> = self.vertices.iter().map(|vertex| vertex.position).collect();

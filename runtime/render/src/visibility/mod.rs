@@ -28,6 +28,7 @@ pub use lens::Lens;
 pub use owner::{Owner, Owners};
 pub use part::PartId;
 pub use sample_pattern::SamplePattern;
+pub(crate) use scene_parts::MeshSize;
 pub use scene_parts::{Cone, Meshes, Paint, SceneParts};
 pub use texture::Texture;
 pub use tile_samples::{Fragment, TileSamples};

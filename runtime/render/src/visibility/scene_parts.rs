@@ -58,6 +58,22 @@ pub struct Meshes {
     pub closed: Vec<bool>,
 }
 
+/// Size of a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct MeshSize {
+    pub(crate) vertices: usize,
+    pub(crate) triangles: usize,
+}
+
+impl std::iter::Sum for MeshSize {
+    fn sum<I: Iterator<Item = Self>>(sizes: I) -> Self {
+        sizes.fold(Self::default(), |sum, size| Self {
+            vertices: sum.vertices + size.vertices,
+            triangles: sum.triangles + size.triangles,
+        })
+    }
+}
+
 /// All cones and triangles of a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneParts {
@@ -195,6 +211,11 @@ impl Meshes {
         self.colours.extend_from_slice(&other.colours);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
         self.owners.extend(&other.owners);
+    }
+
+    /// Number of vertices and triangles.
+    pub(crate) fn size(&self) -> MeshSize {
+        MeshSize { vertices: self.positions_m.len(), triangles: self.triangles.len() }
     }
 
     /// A value of each vertex, blended by the weights of a triangle's corners.

@@ -130,7 +130,7 @@ pub(crate) struct ScenarioFile {
 
 /// Rejects a text with too many tables of cameras before it is parsed, which takes 700 MB for 180,000.
 pub(super) fn check_camera_count(source: &SourceText) -> Result<(), ScenarioError> {
-    match source.header_after("cameras", CAMERAS_MAX) {
+    match source.entry_after("cameras", CAMERAS_MAX) {
         Some(bytes) => {
             let message = format!("the file has more than {CAMERAS_MAX} cameras");
             Err(source.invalid(bytes, message, "give fewer").into())

@@ -137,9 +137,17 @@ mod tests {
     fn too_many_cameras_are_rejected_before_they_are_parsed() {
         // Without a lens, so that parsed cameras would be another mistake.
         let text = "[[cameras]]\n".repeat(1_001);
-        for text in [text.clone(), format!("duration_s = 1\nagents = []\n{text}")] {
+        let list = format!("cameras = [\n{}]", "{},\n".repeat(1_001));
+        let texts = [
+            (text.clone(), 1_001),
+            (format!("duration_s = 1\nagents = []\n{text}"), 1_003),
+            (list.clone(), 1_002),
+            (format!("{list}\nduration_s = 1\nagents = []"), 1_002),
+        ];
+        for (text, line) in texts {
             let message = read(&text).unwrap_err().to_string();
-            assert!(message.contains("more than 1000 cameras"), "{message}");
+            let expected = format!(":{line}: the file has more than 1000 cameras");
+            assert!(message.contains(&expected), "{message}");
         }
     }
 

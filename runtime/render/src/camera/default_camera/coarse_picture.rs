@@ -1,0 +1,246 @@
+//! How well a lens shows a crowd at a moment, by a picture of some thousand cells: bodies are upright rectangles, walls
+//! are edges with a height. World, metres.
+//!
+//! The score is the mean over bodies of the share that is seen, times weights that grow with the body's size in the
+//! picture, and as it faces the eye. Bodies that the picture's edge cuts, and what is close before the eye, lower it.
+
+use glam::Vec2;
+
+use crate::camera::default_camera::crowd::CrowdBody;
+use crate::camera::default_camera::walls::Walls;
+use crate::visibility::Lens;
+
+/// Number of cells of a picture, about.
+const CELLS: f32 = 2304.0;
+/// Greatest number of cells along a side.
+const SIDE_MAX: f32 = 256.0;
+/// Breadth and height of a body, m.
+const BODY_M: Vec2 = Vec2::new(0.5, 1.75);
+/// Share of the picture's height from which on a body is close before the eye.
+const CLOSE: f32 = 0.7;
+/// Depth up to which walls are close before the eye, m.
+const CLOSE_WALL_M: f32 = 3.5;
+/// Heights at which a body is tested against walls, m: shins and chest.
+const TESTED_M: [f32; 2] = [0.4, 1.4];
+/// Number of bodies of a moment that are tested against walls and counted, about.
+const JUDGED: usize = 40;
+/// Share of the picture's height at which a body weighs half as much as a large one.
+const HALF_WEIGHT: f32 = 0.17;
+/// What a body counts that turns its back.
+const BACK: f32 = 0.8;
+/// What the score loses where the picture's upper edge, its lower edge, or a side cuts all bodies.
+const CUT_LOSS: [f32; 3] = [0.9, 0.7, 0.4];
+/// Least part of a body beyond an edge that cuts it, of its height or breadth.
+const CUT: f32 = 0.08;
+/// What the score loses where all bodies are at an edge.
+const UNBALANCED_LOSS: f32 = 0.5;
+/// Spread of what is seen, standard deviation over the picture's height, at which the score is halved: a thin line of
+/// bodies leaves the picture empty.
+const HALF_SPREAD: f32 = 0.03;
+/// Number of rays, from the left to the right edge, that look for close walls.
+const RAYS: usize = 9;
+
+/// Size of a coarse picture with the proportions of another one.
+pub(super) fn coarse_size_px(size_px: [u32; 2]) -> [u32; 2] {
+    let [width, height] = size_px.map(|side| side.max(1) as f32);
+    let scale = (CELLS / (width * height)).sqrt();
+    [width, height].map(|side| (scale * side).round().clamp(1.0, SIDE_MAX) as u32)
+}
+
+/// How well a lens shows bodies between walls, 0 to 1; 0 from within a wall.
+pub(super) fn score(lens: &Lens, walls: &Walls, bodies: &[CrowdBody]) -> f32 {
+    if walls.hold(lens.eye_m) {
+        return 0.0;
+    }
+    let seen = SeenBodies::new(lens, bodies);
+    let step = bodies.len().div_ceil(JUDGED).max(1);
+    let value = |index: usize| {
+        let share = seen.share(index);
+        if share == 0.0 {
+            return 0.0;
+        }
+        let position_m = bodies[index].position_m;
+        let points_m = TESTED_M.map(|height_m| position_m.extend(height_m));
+        let free = points_m.iter().filter(|point_m| !walls.hide(lens.eye_m, **point_m)).count();
+        let to_eye = (lens.eye_m.truncate() - position_m).normalize_or_zero();
+        let facing = BACK + (1.0 - BACK) * (0.5 + 0.5 * bodies[index].ahead.dot(to_eye));
+        let height = seen.heights_px[index] / lens.size().y;
+        let weight = height * height / (height * height + HALF_WEIGHT * HALF_WEIGHT);
+        weight * facing * share * free as f32 / TESTED_M.len() as f32
+    };
+    let judged = (0..bodies.len()).step_by(step);
+    let mean = judged.clone().map(value).sum::<f32>() / judged.len().max(1) as f32;
+    let open = 1.0 - seen.close_share;
+    let whole = 1.0 - seen.cut_loss;
+    let balance = 1.0 - UNBALANCED_LOSS * seen.middle.abs().max_element();
+    mean * open * open * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD) * open_share(lens, walls)
+}
+
+/// Share of the rays across the picture that meet no wall close before the eye.
+fn open_share(lens: &Lens, walls: &Walls) -> f32 {
+    let is_open = |ray: &usize| {
+        let across = lens.size().x * (*ray as f32 + 0.5) / RAYS as f32;
+        let uv = lens.to_uv(Vec2::new(across, 0.5 * lens.size().y));
+        !walls.hide(lens.eye_m, lens.to_world(lens.at_depth(uv, CLOSE_WALL_M)))
+    };
+    (0..RAYS).filter(is_open).count() as f32 / RAYS as f32
+}
+
+/// Bodies in a coarse picture, without walls.
+struct SeenBodies {
+    /// Height of each body; 0 where it is not before the eye.
+    heights_px: Vec<f32>,
+    /// Cells that each body would cover alone, in a picture of any size.
+    whole: Vec<f32>,
+    /// Cells in which each body is the nearest.
+    seen: Vec<u32>,
+    /// Share of the picture that bodies close before the eye cover.
+    close_share: f32,
+    /// Mean of what bodies lose that the picture's edge cuts, weighted by their height.
+    cut_loss: f32,
+    /// Middle of all cells in which bodies are seen, from that of the picture, of half its size.
+    middle: Vec2,
+    /// Standard deviation of their height in the picture, of its height.
+    spread: f32,
+}
+
+impl SeenBodies {
+    fn new(lens: &Lens, bodies: &[CrowdBody]) -> Self {
+        let count = bodies.len();
+        let mut drawn = Self {
+            heights_px: vec![0.0; count],
+            whole: vec![0.0; count],
+            seen: vec![0; count],
+            close_share: 0.0,
+            cut_loss: 0.0,
+            middle: Vec2::ZERO,
+            spread: 0.0,
+        };
+        let [width, height] = lens.size_px.map(|side| side as usize);
+        // Depth and index of the nearest body of each cell.
+        let mut nearest = vec![(f32::INFINITY, usize::MAX); width * height];
+        let (mut lost_px, mut all_px) = (0.0, 0.0);
+        for (index, CrowdBody { position_m, .. }) in bodies.iter().enumerate() {
+            let depth_m = lens.to_camera(position_m.extend(0.5 * BODY_M.y)).z;
+            let [feet, head] = [0.0, BODY_M.y].map(|height_m: f32| lens.to_px(position_m.extend(height_m)));
+            let (Some(feet), Some(head)) = (feet, head) else { continue };
+            let half = 0.5 * BODY_M.x / lens.pixel_m(depth_m);
+            let middle = 0.5 * (feet.x + head.x);
+            // Seen from above, a body is not lower than broad.
+            let top = head.y.min(feet.y - 2.0 * half);
+            let columns = cells(middle - half, middle + half);
+            let rows = cells(top, feet.y);
+            drawn.heights_px[index] = feet.y - top;
+            drawn.whole[index] = (columns[1] - columns[0]) * (rows[1] - rows[0]);
+            let [columns, rows] = [inside(columns, width), inside(rows, height)];
+            if !columns.is_empty() && !rows.is_empty() {
+                let height_px = feet.y - top;
+                all_px += height_px;
+                lost_px += height_px * cut_loss(lens, [middle - half, top], [middle + half, feet.y]);
+            }
+            for row in rows {
+                for cell in &mut nearest[row * width..][columns.clone()] {
+                    if depth_m < cell.0 {
+                        *cell = (depth_m, index);
+                    }
+                }
+            }
+        }
+        let (mut close, mut covered, mut sum, mut squares) = (0, 0.0, Vec2::ZERO, 0.0);
+        for (cell, (_, index)) in nearest.iter().enumerate().filter(|(_, (_, index))| *index != usize::MAX) {
+            drawn.seen[*index] += 1;
+            close += usize::from(drawn.heights_px[*index] > CLOSE * lens.size().y);
+            let at = (Vec2::new((cell % width) as f32, (cell / width) as f32) + 0.5) / lens.size();
+            (covered, sum, squares) = (covered + 1.0, sum + at, squares + at.y * at.y);
+        }
+        drawn.close_share = close as f32 / nearest.len() as f32;
+        if covered > 0.0 {
+            let mean = sum / covered;
+            drawn.middle = 2.0 * mean - 1.0;
+            drawn.spread = (squares / covered - mean.y * mean.y).max(0.0).sqrt();
+        }
+        drawn.cut_loss = if all_px > 0.0 { lost_px / all_px } else { 0.0 };
+        drawn
+    }
+
+    /// Share of a body that is in the picture and not behind others.
+    fn share(&self, index: usize) -> f32 {
+        self.seen[index] as f32 / self.whole[index].max(1.0)
+    }
+}
+
+/// What a body loses that an edge of the picture cuts.
+fn cut_loss(lens: &Lens, [left, top]: [f32; 2], [right, bottom]: [f32; 2]) -> f32 {
+    let (size, least) = (lens.size(), CUT * Vec2::new(right - left, bottom - top));
+    let is_cut_at = [top < -least.y, bottom > size.y + least.y, left < -least.x || right > size.x + least.x];
+    is_cut_at.iter().zip(CUT_LOSS).filter(|(is_cut, _)| **is_cut).fold(0.0, |most, (_, loss)| most.max(loss))
+}
+
+/// First cell of a range and the one after its last, at least one cell.
+fn cells(low: f32, high: f32) -> [f32; 2] {
+    let first = low.round();
+    [first, high.round().max(first + 1.0)]
+}
+
+/// The part of a range of cells that is in a picture.
+fn inside([first, end]: [f32; 2], side: usize) -> std::ops::Range<usize> {
+    let end = (end.max(0.0) as usize).min(side);
+    (first.max(0.0) as usize).min(end)..end
+}
+
+#[cfg(test)]
+mod tests {
+    use fbcrowd_sim::scenario::Scenario;
+    use glam::Vec3;
+
+    use super::*;
+
+    /// From 6 m south of the origin, at eye height.
+    fn lens() -> Lens {
+        Lens::perspective(coarse_size_px([1280, 720]), Vec3::new(0.0, -6.0, 1.65), Vec3::new(0.0, 0.0, 1.15), 1.0)
+    }
+
+    fn score_facing(scenario: &Scenario, positions_m: &[Vec2], ahead: Vec2) -> f32 {
+        let bodies: Vec<CrowdBody> =
+            positions_m.iter().map(|position_m| CrowdBody { position_m: *position_m, ahead }).collect();
+        score(&lens(), &Walls::new(scenario), &bodies)
+    }
+
+    fn score_of(scenario: &Scenario, positions_m: &[Vec2]) -> f32 {
+        score_facing(scenario, positions_m, Vec2::NEG_Y)
+    }
+
+    #[test]
+    fn bodies_and_walls_before_a_body_hide_it() {
+        let mut scenario = Scenario::of(Vec::new());
+        let alone = score_of(&scenario, &[Vec2::ZERO]);
+        assert!(alone > 0.6, "{alone}");
+        let [hidden, beside] = [0.0, 1.0].map(|x| score_of(&scenario, &[Vec2::ZERO, Vec2::new(x, -1.0)]));
+        assert!(hidden < 0.7 * beside, "{hidden}, {beside}");
+        let close = score_of(&scenario, &[Vec2::ZERO, Vec2::new(0.0, -5.0)]);
+        assert!(close < 0.5 * hidden, "{close}, {hidden}");
+        scenario.obstacles_m.push([[-9.0, -1.0], [9.0, -1.0], [9.0, -0.9], [-9.0, -0.9]].map(Vec2::from).to_vec());
+        let behind = score_of(&scenario, &[Vec2::ZERO]);
+        assert!(behind < 1e-6, "{behind}");
+        // A kerb hides the shins only.
+        scenario.obstacle_heights_m = vec![Some(0.8)];
+        assert!((score_of(&scenario, &[Vec2::ZERO]) / alone - 0.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn backs_cut_bodies_and_corners_of_the_picture_count_less() {
+        let scenario = Scenario::of(Vec::new());
+        let middle = score_of(&scenario, &[Vec2::ZERO]);
+        let back = score_facing(&scenario, &[Vec2::ZERO], Vec2::Y);
+        assert!((back / middle - BACK).abs() < 1e-3, "{back}, {middle}");
+        let [aside, cut] = [2.4, 3.1].map(|x| score_of(&scenario, &[Vec2::new(x, 0.0)]));
+        assert!(aside < 0.8 * middle && cut < 0.5 * aside, "{middle}, {aside}, {cut}");
+    }
+
+    #[test]
+    fn coarse_pictures_have_the_proportions_of_fine_ones() {
+        assert_eq!(coarse_size_px([1280, 720]), [64, 36]);
+        assert_eq!(coarse_size_px([720, 1280]), [36, 64]);
+        assert_eq!(coarse_size_px([100_000, 1]), [256, 1]);
+    }
+}

@@ -1,0 +1,93 @@
+//! A crowd at a few moments of its recording. World, metres, seconds.
+
+use fbcrowd_sim::recording::{AgentFrame, Recording, duration_s, sample};
+use glam::Vec2;
+
+use crate::error::RenderError;
+
+/// Number of moments of a crowd, and of few bodies, whose frames are read quickly.
+const MOMENTS: [u32; 2] = [12, 36];
+/// Number of bodies up to which they are few.
+const FEW: usize = 30;
+/// Greatest number of bodies of a moment, at even steps.
+const BODIES_MAX: usize = 1_000;
+/// Share of the bodies of a moment that its middle leaves out on each side.
+const OUTERMOST: f32 = 0.1;
+
+/// Where a body stands, and the direction that it faces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CrowdBody {
+    pub(super) position_m: Vec2,
+    pub(super) ahead: Vec2,
+}
+
+/// The bodies of a moment.
+#[derive(Clone, Debug)]
+pub(super) struct CrowdMoment {
+    pub(super) time_s: f64,
+    /// Point on the ground that the camera keeps its distance from, m.
+    pub(super) centre_m: Vec2,
+    pub(super) bodies: Vec<CrowdBody>,
+}
+
+/// Moments from a time to the end of a recording at which bodies are present.
+pub(super) fn read_moments(recording: &Recording, start_s: f64) -> Result<Vec<CrowdMoment>, RenderError> {
+    let is_few = recording.population().agents.len() <= FEW;
+    let count = MOMENTS[usize::from(is_few)];
+    let length_s = (duration_s(recording) - start_s).max(0.0);
+    let mut moments = Vec::new();
+    for index in 0..count {
+        let time_s = start_s + length_s * f64::from(index) / f64::from(count - 1);
+        let agents = sample(recording, time_s)?;
+        let step = agents.len().div_ceil(BODIES_MAX).max(1);
+        let body = |agent: &AgentFrame| CrowdBody { position_m: agent.root.position_m, ahead: agent.root.forward() };
+        if !agents.is_empty() {
+            let bodies = agents.iter().step_by(step).map(body).collect();
+            moments.push(CrowdMoment { time_s, centre_m: Vec2::ZERO, bodies });
+        }
+    }
+    Ok(moments)
+}
+
+/// About so many moments, and bodies of each, at even steps.
+pub(super) fn thinned(moments: &[CrowdMoment], [moment_count, body_count]: [usize; 2]) -> Vec<CrowdMoment> {
+    let step = moments.len().div_ceil(moment_count).max(1);
+    let thin = |moment: &CrowdMoment| {
+        let step = moment.bodies.len().div_ceil(body_count).max(1);
+        CrowdMoment { bodies: moment.bodies.iter().copied().step_by(step).collect(), ..*moment }
+    };
+    moments.iter().step_by(step).map(thin).collect()
+}
+
+/// The same moments for a camera that stands still.
+pub(super) fn filmed_still(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
+    let centre_m = middle_m(moments.iter().flat_map(|moment| &moment.bodies));
+    moments.into_iter().map(|moment| CrowdMoment { centre_m, ..moment }).collect()
+}
+
+/// The same moments for a camera that moves with the middle of the crowd, smoothed over the neighbours.
+pub(super) fn filmed_moving(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
+    let middles_m: Vec<Vec2> = moments.iter().map(|moment| middle_m(moment.bodies.iter())).collect();
+    let last = middles_m.len().saturating_sub(1);
+    let centre_m = |at: usize| {
+        let [before, after] = [middles_m[at.saturating_sub(1)], middles_m[(at + 1).min(last)]];
+        0.25 * before + 0.5 * middles_m[at] + 0.25 * after
+    };
+    moments.into_iter().enumerate().map(|(at, moment)| CrowdMoment { centre_m: centre_m(at), ..moment }).collect()
+}
+
+/// Middle of the box that holds all but the outermost bodies on each side, m.
+fn middle_m<'a>(bodies: impl Iterator<Item = &'a CrowdBody> + Clone) -> Vec2 {
+    let middle = |axis: usize| {
+        let mut along: Vec<f32> = bodies.clone().map(|body| body.position_m[axis]).collect();
+        along.sort_by(f32::total_cmp);
+        quantile(&along, OUTERMOST).midpoint(quantile(&along, 1.0 - OUTERMOST))
+    };
+    Vec2::new(middle(0), middle(1))
+}
+
+/// The value of sorted ones below which a share lies; 0 where there is none.
+pub(super) fn quantile(sorted: &[f32], share: f32) -> f32 {
+    let last = sorted.len().saturating_sub(1);
+    sorted.get((share * last as f32).round() as usize).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,91 @@
+//! Aim and focal length that frame bodies from an eye. World, metres.
+
+use glam::{Vec2, Vec3};
+
+use crate::camera::default_camera::crowd::quantile;
+use crate::visibility::Lens;
+
+/// Width of the film, mm.
+const FILM_MM: f32 = 36.0;
+/// Shortest and longest focal length, mm: a wide angle without distorted bodies at the edges, a long lens.
+const FOCAL_MM: [f32; 2] = [28.0, 135.0];
+/// Share of the picture within which bodies are framed.
+const FRAMED: f32 = 0.88;
+/// Height of a body, m.
+const BODY_M: f32 = 1.75;
+/// Greatest share of the picture's height that a body in the middle of the crowd takes.
+const BODY_SHARE: f32 = 0.5;
+/// Share of the free height by which a level view shows the bodies below the middle: empty sky rather than empty ground.
+const LOWERED: f32 = 0.2;
+/// Slope from which on a view is not lowered.
+const STEEP: f32 = 0.15;
+/// Distance before the eye from which on bodies are framed, m.
+const NEAR_M: f32 = 1.0;
+
+/// Direction of a view, and its focal length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Framing {
+    pub(super) direction: Vec3,
+    /// On film of 36 mm.
+    pub(super) focal_mm: f32,
+}
+
+impl Framing {
+    pub(super) fn lens(&self, eye_m: Vec3, size_px: [u32; 2]) -> Lens {
+        Lens::perspective(size_px, eye_m, eye_m + self.direction, FILM_MM / self.focal_mm)
+    }
+}
+
+/// What a level view sees of bodies: slopes of each, sorted.
+pub(super) struct Slopes {
+    ahead: Vec2,
+    left: Vec<f32>,
+    feet: Vec<f32>,
+    heads: Vec<f32>,
+    /// Of one body, upright.
+    heights: Vec<f32>,
+}
+
+impl Slopes {
+    /// The slopes of bodies from an eye that looks in a level direction.
+    pub(super) fn new(eye_m: Vec3, ahead: Vec2, positions_m: &[Vec2]) -> Self {
+        let mut slopes = Self { ahead, left: Vec::new(), feet: Vec::new(), heads: Vec::new(), heights: Vec::new() };
+        for position_m in positions_m {
+            let offset_m = *position_m - eye_m.truncate();
+            let depth_m = offset_m.dot(ahead);
+            if depth_m > NEAR_M {
+                slopes.left.push(ahead.perp_dot(offset_m) / depth_m);
+                slopes.feet.push(-eye_m.z / depth_m);
+                slopes.heads.push((BODY_M - eye_m.z) / depth_m);
+                slopes.heights.push(BODY_M / depth_m);
+            }
+        }
+        for values in [&mut slopes.left, &mut slopes.feet, &mut slopes.heads, &mut slopes.heights] {
+            values.sort_by(f32::total_cmp);
+        }
+        slopes
+    }
+
+    /// The framing that holds a share of the bodies.
+    pub(super) fn framing(&self, share: f32, size_px: [u32; 2]) -> Framing {
+        let out = 1.0 - share;
+        let [right, left] = [0.5 * out, 1.0 - 0.5 * out].map(|at| quantile(&self.left, at));
+        let [low, high] = [quantile(&self.feet, out), quantile(&self.heads, share)];
+        let to_world = |left: f32, up: f32| (self.ahead + left * self.ahead.perp()).extend(up);
+        let [across, up] = [left.midpoint(right), low.midpoint(high)];
+        let direction = to_world(across, up).normalize();
+        let level = Lens::perspective(size_px, Vec3::ZERO, direction, 1.0);
+        let mut half = Vec2::ZERO;
+        for (left, up) in [(left, low), (left, high), (right, low), (right, high)] {
+            let at = level.to_camera(to_world(left, up));
+            half = half.max(at.truncate().abs() / at.z.max(1e-3));
+        }
+        let proportion = size_px[0] as f32 / size_px[1] as f32;
+        let of_body = proportion * quantile(&self.heights, 0.5) / BODY_SHARE;
+        let tangent = (2.0 / FRAMED * half.x.max(proportion * half.y)).max(of_body);
+        let focal_mm = (FILM_MM / tangent.max(1e-3)).floor().clamp(FOCAL_MM[0], FOCAL_MM[1]);
+        let free = (0.5 * FRAMED * FILM_MM / (focal_mm * proportion) - half.y).max(0.0);
+        let lowered = LOWERED * (1.0 - up.abs() / STEEP).max(0.0);
+        Framing { direction: to_world(across, up + lowered * free).normalize(), focal_mm }
+    }
+}

@@ -1,0 +1,295 @@
+//! The choice of the default camera: of all candidates the one with the best score, the first of equals. World, metres.
+//!
+//! The score of a candidate is the geometric mean over moments of [`coarse_picture::score`], times its weight. All are
+//! scored by a few bodies at few moments; the best ones of each height again by more.
+//!
+//! A camera stands still; it moves with the middle of the crowd where the crowd is seen much better so.
+
+use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::scenario::{CameraKey, CameraSpec, Scenario};
+use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+
+use crate::camera::default_camera::candidates::{Candidate, HEIGHT_COUNT, candidates};
+use crate::camera::default_camera::coarse_picture::{self, coarse_size_px};
+use crate::camera::default_camera::crowd::{CrowdMoment, filmed_moving, filmed_still, read_moments, thinned};
+use crate::camera::default_camera::path::best_path;
+use crate::camera::default_camera::walls::Walls;
+use crate::error::RenderError;
+
+/// Name of the camera in captions.
+pub(crate) const DEFAULT_NAME: &str = "default";
+/// Number of moments, and of bodies of each, by which places are framed, about.
+const FRAMED: [usize; 2] = [12, 40];
+/// Number of moments, and of bodies of each, that all candidates are scored by, about.
+const COARSE: [usize; 2] = [6, 120];
+/// Number of candidates of each height that are scored by all moments.
+const FINALISTS: usize = 8;
+/// Added to the score of each moment, so that one without a body does not decide alone.
+const UNSEEN: f32 = 0.02;
+/// Focal length where no body is ever present, mm.
+const EMPTY_MM: f32 = 35.0;
+/// What the score of a moving camera counts.
+const MOVING: f32 = 0.7;
+
+/// The camera of a recording without one, for pictures of a size and frames from a time on, s.
+///
+/// # Errors
+/// If a frame cannot be read.
+pub(crate) fn default_camera(
+    recording: &Recording,
+    start_s: f64,
+    size_px: [u32; 2],
+) -> Result<CameraSpec, RenderError> {
+    let moments = read_moments(recording, start_s)?;
+    Ok(best_camera(&recording.header().scenario, moments, size_px))
+}
+
+/// What all candidates are judged by.
+struct Filmed<'a> {
+    walls: &'a Walls<'a>,
+    moments: Vec<CrowdMoment>,
+    size_px: [u32; 2],
+}
+
+/// A candidate for each moment, and their score.
+type Choice = (Vec<Candidate>, f32);
+
+/// The best camera, for the bodies at each moment.
+fn best_camera(scenario: &Scenario, moments: Vec<CrowdMoment>, size_px: [u32; 2]) -> CameraSpec {
+    let (walls, size_px) = (Walls::new(scenario), coarse_size_px(size_px));
+    let still = Filmed { walls: &walls, moments: filmed_still(moments.clone()), size_px };
+    let moving = Filmed { walls: &walls, moments: filmed_moving(moments), size_px };
+    let [of_still, of_moving] = [still.best_place(), moving.best_path()];
+    if MOVING * of_moving.1 > of_still.1 { moving.camera(&of_moving.0) } else { still.camera(&of_still.0) }
+}
+
+impl Filmed<'_> {
+    fn candidates(&self) -> Vec<Candidate> {
+        let offsets_m = |moment: &CrowdMoment| -> Vec<Vec2> {
+            moment.bodies.iter().map(|body| body.position_m - moment.centre_m).collect()
+        };
+        let framed_m: Vec<Vec2> = thinned(&self.moments, FRAMED).iter().flat_map(offsets_m).collect();
+        candidates(&framed_m, self.size_px)
+    }
+
+    /// The best candidate for all moments.
+    fn best_place(&self) -> Choice {
+        let candidates = self.candidates();
+        let few = self.few();
+        let scores: Vec<f32> = candidates.par_iter().map(|candidate| few.score(candidate)).collect();
+        let mut finalists: Vec<usize> = Vec::new();
+        for height in 0..HEIGHT_COUNT {
+            let is_of_height = |at: &usize| candidates[*at].height == height;
+            let mut of_height: Vec<usize> = (0..candidates.len()).filter(is_of_height).collect();
+            of_height.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+            finalists.extend(of_height.into_iter().take(FINALISTS));
+        }
+        finalists.sort_unstable();
+        let scores: Vec<f32> = finalists.par_iter().map(|at| self.score(&candidates[*at])).collect();
+        let best = (1..finalists.len()).fold(0, |best, at| if scores[at] > scores[best] { at } else { best });
+        (vec![candidates[finalists[best]]; self.moments.len()], scores[best])
+    }
+
+    /// The best candidates along the way of the crowd, with one focal length.
+    fn best_path(&self) -> Choice {
+        let (place, _) = self.best_place();
+        let Some(Candidate { share, framing, .. }) = place.first().copied() else { return (Vec::new(), 0.0) };
+        let mut candidates = self.candidates();
+        candidates.retain(|candidate| candidate.share == share);
+        candidates.iter_mut().for_each(|candidate| candidate.framing.focal_mm = framing.focal_mm);
+        let of_moment = |moment: &CrowdMoment| -> Vec<f32> {
+            candidates.iter().map(|candidate| self.logarithm(candidate, moment)).collect()
+        };
+        let logarithms: Vec<Vec<f32>> = self.moments.par_iter().map(of_moment).collect();
+        let (path, mean) = best_path(&candidates, &self.moments, &logarithms);
+        (path.into_iter().map(|at| candidates[at]).collect(), score_of(mean))
+    }
+
+    /// The same with few bodies at few moments.
+    fn few(&self) -> Self {
+        Self { moments: thinned(&self.moments, COARSE), ..*self }
+    }
+
+    fn score(&self, candidate: &Candidate) -> f32 {
+        // The geometric mean: a crowd that is seen all the time counts more than one that is seen well for half of it.
+        let sum: f32 = self.moments.iter().map(|moment| self.logarithm(candidate, moment)).sum();
+        score_of(sum / self.moments.len().max(1) as f32)
+    }
+
+    /// Logarithm of the score of a candidate at a moment.
+    fn logarithm(&self, candidate: &Candidate, moment: &CrowdMoment) -> f32 {
+        let lens = candidate.framing.lens(eye_m(moment, candidate), self.size_px);
+        libm::logf(candidate.weight * coarse_picture::score(&lens, self.walls, &moment.bodies) + UNSEEN)
+    }
+
+    /// The camera of a choice: still, where it has one eye.
+    fn camera(&self, choice: &[Candidate]) -> CameraSpec {
+        let camera = CameraSpec { name: DEFAULT_NAME.to_owned(), ..CameraSpec::default() };
+        let key = |(moment, candidate): (&CrowdMoment, &Candidate)| {
+            let eye_m = eye_m(moment, candidate);
+            let look_at_m = eye_m + candidate.offset_m.length() * candidate.framing.direction;
+            CameraKey { time_s: moment.time_s as f32, eye_m, look_at_m, up: None }
+        };
+        let keys: Vec<CameraKey> = self.moments.iter().zip(choice).map(key).collect();
+        let Some((first, candidate)) = keys.first().copied().zip(choice.first()) else {
+            return CameraSpec { focal_mm: Some(EMPTY_MM), ..camera };
+        };
+        let camera = CameraSpec { focal_mm: Some(candidate.framing.focal_mm), ..camera };
+        if keys.iter().all(|key| key.eye_m == first.eye_m) {
+            return CameraSpec { eye_m: Some(first.eye_m), look_at_m: Some(first.look_at_m), ..camera };
+        }
+        CameraSpec { keys, ..camera }
+    }
+}
+
+/// The score of which the mean logarithm is given.
+fn score_of(mean: f32) -> f32 {
+    (libm::expf(mean) - UNSEEN).max(0.0)
+}
+
+fn eye_m(moment: &CrowdMoment, candidate: &Candidate) -> Vec3 {
+    moment.centre_m.extend(0.0) + candidate.offset_m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::camera::default_camera::crowd::CrowdBody;
+    use crate::visibility::Lens;
+
+    const SIZE_PX: [u32; 2] = [1280, 720];
+
+    fn wall(low_m: [f32; 2], high_m: [f32; 2]) -> Vec<Vec2> {
+        [low_m, [high_m[0], low_m[1]], high_m, [low_m[0], high_m[1]]].map(Vec2::from).to_vec()
+    }
+
+    fn block(first_m: Vec2, columns: usize, count: usize) -> Vec<Vec2> {
+        (0..count).map(|index| first_m + Vec2::new((index % columns) as f32, (index / columns) as f32)).collect()
+    }
+
+    /// The camera of a crowd that faces east, a second between the moments.
+    fn camera(scenario: &Scenario, moments_m: &[Vec<Vec2>]) -> CameraSpec {
+        let body = |position_m: &Vec2| CrowdBody { position_m: *position_m, ahead: Vec2::X };
+        let moment = |(index, positions_m): (usize, &Vec<Vec2>)| CrowdMoment {
+            time_s: index as f64,
+            centre_m: Vec2::ZERO,
+            bodies: positions_m.iter().map(body).collect(),
+        };
+        best_camera(scenario, moments_m.iter().enumerate().map(moment).collect(), SIZE_PX)
+    }
+
+    /// The lens of a camera at each moment.
+    fn lenses(camera: &CameraSpec, moments: usize) -> Vec<Lens> {
+        let tangent = camera.width_tangent().unwrap();
+        let lens = |[eye_m, target_m]: [Vec3; 2]| Lens::perspective(SIZE_PX, eye_m, target_m, tangent);
+        match camera.eye_m.zip(camera.look_at_m) {
+            Some((eye_m, target_m)) => vec![lens([eye_m, target_m]); moments],
+            None => camera.keys.iter().map(|key| lens([key.eye_m, key.look_at_m])).collect(),
+        }
+    }
+
+    #[test]
+    fn the_camera_is_low_where_no_wall_hides_the_crowd() {
+        let mut scenario = Scenario::of(Vec::new());
+        let moments_m = vec![block(Vec2::ZERO, 6, 12)];
+        let free = lenses(&camera(&scenario, &moments_m), 1)[0];
+        assert!(free.eye_m.z < 5.0, "{free:?}");
+        // All around, 30 m away: nothing is seen from behind them.
+        let [low, high] = [-30.0, 30.0];
+        scenario.obstacles_m = vec![
+            wall([low, low], [high, low + 0.2]),
+            wall([low, high - 0.2], [high, high]),
+            wall([low, low], [low + 0.2, high]),
+            wall([high - 0.2, low], [high, high]),
+        ];
+        let walled = lenses(&camera(&scenario, &moments_m), 1)[0];
+        assert!(walled.eye_m.truncate().abs().max_element() < 30.0 || walled.eye_m.z > 3.0, "{walled:?}");
+    }
+
+    #[test]
+    fn the_camera_rises_above_walls_all_around() {
+        let mut scenario = Scenario::of(Vec::new());
+        let [low, high] = [-1.5, 3.5];
+        scenario.obstacles_m = vec![
+            wall([low, low], [high, low + 0.2]),
+            wall([low, high - 0.2], [high, high]),
+            wall([low, low], [low + 0.2, high]),
+            wall([high - 0.2, low], [high, high]),
+        ];
+        let lens = lenses(&camera(&scenario, &[block(Vec2::ZERO, 3, 9)]), 1)[0];
+        assert!(lens.eye_m.z > 4.0, "{lens:?}");
+    }
+
+    #[test]
+    fn no_body_of_a_stream_fills_the_picture() {
+        // A corridor 6 m wide, full of bodies that walk along it.
+        let mut scenario = Scenario::of(Vec::new());
+        scenario.obstacles_m = vec![wall([-60.0, -3.3], [60.0, -3.0]), wall([-60.0, 3.0], [60.0, 3.3])];
+        let moment_m = |moment: usize| -> Vec<Vec2> {
+            let shift = 0.4 * moment as f32;
+            let at =
+                |index: usize| Vec2::new(-20.0 + 1.3 * (index / 4) as f32 + shift, -2.1 + 1.4 * (index % 4) as f32);
+            (0..120).map(at).collect()
+        };
+        let moments_m: Vec<Vec<Vec2>> = (0..12).map(moment_m).collect();
+        for (lens, positions_m) in lenses(&camera(&scenario, &moments_m), 12).iter().zip(&moments_m) {
+            for position_m in positions_m {
+                let Some(px) = lens.to_px(position_m.extend(1.5)) else { continue };
+                let is_seen = px.cmpge(Vec2::ZERO).all() && px.cmple(lens.size()).all();
+                let height_px = 1.75 / lens.pixel_m(lens.to_camera(position_m.extend(1.5)).z);
+                assert!(!is_seen || height_px < 0.7 * lens.size().y, "{position_m}: {height_px} px from {lens:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn most_of_a_crowd_that_crosses_is_always_framed() {
+        // Over twelve metres.
+        let moments_m: Vec<Vec<Vec2>> =
+            (0..7).map(|moment| block(Vec2::new(-6.0 + 2.0 * moment as f32, 0.0), 3, 9)).collect();
+        let lenses = lenses(&camera(&Scenario::of(Vec::new()), &moments_m), moments_m.len());
+        for (lens, positions_m) in lenses.iter().zip(&moments_m) {
+            let is_framed = |position_m: &&Vec2| {
+                lens.to_px(position_m.extend(1.0)).is_some_and(|px| (0.0..lens.size().x).contains(&px.x))
+            };
+            let framed = positions_m.iter().filter(is_framed).count();
+            assert!(3 * framed > 2 * positions_m.len(), "{framed} from {lens:?}: {positions_m:?}");
+        }
+    }
+
+    #[test]
+    fn the_camera_goes_with_a_body_that_goes_far() {
+        // Along a lane of 1 m between walls, and round its corner.
+        let mut scenario = Scenario::of(Vec::new());
+        scenario.obstacles_m = vec![
+            wall([-1.0, -1.0], [31.0, -0.5]),
+            wall([-1.0, 0.5], [30.0, 1.0]),
+            wall([31.0, -1.0], [31.5, 30.0]),
+            wall([29.5, 0.5], [30.0, 30.0]),
+        ];
+        let along =
+            |step: u16| if step < 24 { [1.27 * f32::from(step), 0.0] } else { [30.5, 1.3 * f32::from(step - 24)] };
+        let moments_m: Vec<Vec<Vec2>> = (0..44).map(|step| vec![Vec2::from(along(step))]).collect();
+        let camera = camera(&scenario, &moments_m);
+        assert_eq!(camera.keys.len(), moments_m.len());
+        let mut hidden = 0;
+        for (lens, positions_m) in lenses(&camera, 44).iter().zip(&moments_m) {
+            let chest_m = positions_m[0].extend(1.3);
+            hidden += usize::from(Walls::new(&scenario).hide(lens.eye_m, chest_m));
+            let is_in = lens.to_px(chest_m).is_some_and(|px| px.cmpge(Vec2::ZERO).all() && px.cmple(lens.size()).all());
+            assert!(is_in, "{chest_m} from {lens:?}");
+        }
+        // The corner hides it for a moment, while the camera turns.
+        assert!(hidden <= 2, "{hidden}");
+        for keys in camera.keys.windows(2) {
+            assert!(keys[0].eye_m.distance(keys[1].eye_m) < 4.5, "{keys:?}");
+        }
+    }
+
+    #[test]
+    fn a_recording_without_bodies_has_a_camera() {
+        assert!(camera(&Scenario::of(Vec::new()), &[]).width_tangent().is_some());
+    }
+}
