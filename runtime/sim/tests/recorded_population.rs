@@ -101,7 +101,10 @@ fn births_and_removals_come_back() {
             agents.iter().map(|agent| (agent.id, agent.state, agent.root)).collect()
         };
         assert_eq!(key(&agents), key(&expected));
+        let positions_m: Vec<_> = expected.iter().map(|agent| (agent.id, agent.root.position_m)).collect();
+        assert_eq!(recording.read_positions(index).unwrap(), positions_m);
     }
+    assert!(matches!(recording.read_positions(5), Err(RecordingError::NoSuchFrame { .. })));
 }
 
 #[test]
@@ -201,9 +204,10 @@ fn a_forged_count_or_id_of_a_frame_is_rejected() {
         fs::write(&path, file_of(&all)).unwrap();
         let error = read_all(&path).unwrap_err();
         assert!(error.to_string().contains("byte "), "{error}");
+        Recording::open(&path).unwrap().read_positions(1).is_err()
     };
     for count in [0_u32, 2, 4, 1_000_001, u32::MAX] {
-        check(&|payload| payload[4..8].copy_from_slice(&count.to_le_bytes()));
+        assert!(check(&|payload| payload[4..8].copy_from_slice(&count.to_le_bytes())));
     }
     // The rows are transposed, so the first bytes of the ids stand first, and the states' after them.
     let at = |byte: usize, value: u8| {
@@ -215,8 +219,10 @@ fn a_forged_count_or_id_of_a_frame_is_rejected() {
             *payload = [start, zipped(&rows)[4..].to_vec()].concat();
         }
     };
-    for (byte, value) in [(0, 1), (2, 1), (9, 255), (12, 2), (15, 1)] {
-        check(&at(byte, value));
+    // Positions are read without states.
+    for (byte, value, has_no_positions) in [(0, 1, true), (2, 1, true), (9, 255, true), (12, 2, false), (15, 1, false)]
+    {
+        assert_eq!(check(&at(byte, value)), has_no_positions, "{byte}");
     }
 }
 
@@ -264,6 +270,8 @@ fn version_1_is_read() {
     assert_eq!(recording.population(), &Population::of(&header.scenario));
     let frames = read_all(&path).unwrap();
     assert!(frames.iter().all(|agents| agents.iter().map(|agent| agent.id.0).eq(0..7)));
+    let first_m: Vec<_> = frames[0].iter().map(|agent| (agent.id, agent.root.position_m)).collect();
+    assert_eq!(recording.read_positions(0).unwrap(), first_m);
     let walked_m = frames[16][0].root.position_m.distance(header.scenario.agents[0].position_m);
     assert!((walked_m - 2.2).abs() < 0.5, "{walked_m} m");
     assert_eq!(measure(&recording).unwrap().agents, 7);

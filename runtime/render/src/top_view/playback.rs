@@ -1,7 +1,7 @@
 //! Tracks of all agents over a whole recording, for framing and trails. Roots are in the world, metres.
 
 use fbcrowd_sim::AgentId;
-use fbcrowd_sim::recording::{AgentFrame, Recording, RecordingError};
+use fbcrowd_sim::recording::{Recording, RecordingError};
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -55,13 +55,9 @@ pub(crate) fn read_tracks_between(recording: &Recording, [from_s, to_s]: [f64; 2
     Ok(tracks)
 }
 
-/// Roots of the agents of some frames.
+/// Positions of the agents of some frames.
 fn read_roots(recording: &Recording, frames: &[usize]) -> Result<Vec<Vec<(AgentId, Vec2)>>, RecordingError> {
-    let roots_m = |agents: &mut Vec<AgentFrame>, frame: &usize| {
-        recording.read_frame(*frame, agents)?;
-        Ok(agents.iter().map(|agent| (agent.id, agent.root.position_m)).collect())
-    };
-    frames.par_iter().map_init(Vec::new, roots_m).collect()
+    frames.par_iter().map(|frame| recording.read_positions(*frame)).collect()
 }
 
 /// The box of all positions of every n-th frame of a recording, the last one among them; none without agents.

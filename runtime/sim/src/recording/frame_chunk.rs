@@ -13,16 +13,18 @@ use std::io::{self, Read, Write};
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 
-use glam::Quat;
+use glam::{Quat, Vec2};
 
 use crate::population::AgentId;
 use crate::recording::frame::AgentFrame;
-use crate::recording::frame_packing::{FrameFault, PACKED_BYTES, pack, unpack};
+use crate::recording::frame_packing::{FrameFault, PACKED_BYTES, SCALAR_MAX, pack, unpack};
 use crate::recording::rotation_packing::{COARSE_BITS, pack_rotation, packed_rotation_bytes, unpack_rotation};
 use crate::scenario::ranges::AGENTS_MAX;
 
 /// Bytes of a row before its packed agent.
 const KEY_BYTES: usize = 6;
+/// Bytes of an agent's position, the first ones of its packed frame.
+const POSITION_BYTES: usize = 8;
 /// Bytes of a row.
 pub(crate) const ROW_BYTES: usize = KEY_BYTES + PACKED_BYTES;
 /// Bytes of an extra joint.
@@ -96,6 +98,23 @@ pub(crate) fn decompress(compressed: &[u8], row_bytes: usize, count: usize) -> O
     // One byte more than expected, to detect a payload that is too long.
     ZlibDecoder::new(compressed).take(length as u64 + 1).read_to_end(&mut planes).ok()?;
     (planes.len() == length).then(|| transpose(&planes, count))
+}
+
+/// Ids and positions of `count` agents in compressed rows. Transposed, they are the first bytes: only these are
+/// decompressed. None where there are too few bytes, or a value is beyond all scenarios.
+pub(crate) fn read_positions(compressed: &[u8], count: usize) -> Option<Vec<(AgentId, Vec2)>> {
+    let mut planes = vec![0; count * (KEY_BYTES + POSITION_BYTES)];
+    ZlibDecoder::new(compressed).read_exact(&mut planes).ok()?;
+    let (mut agents, mut least) = (Vec::with_capacity(count), 0_u32);
+    for agent in 0..count {
+        let word = |plane: usize| [0, 1, 2, 3].map(|byte| planes[(plane + byte) * count + agent]);
+        let id = least.checked_add(u32::from_le_bytes(word(0)))?;
+        let position_m = Vec2::from([0, 4].map(|byte| f32::from_le_bytes(word(KEY_BYTES + byte))));
+        (position_m.abs().max_element() <= SCALAR_MAX && position_m.is_finite()).then_some(())?;
+        least = id.saturating_add(1);
+        agents.push((AgentId(id), position_m));
+    }
+    Some(agents)
 }
 
 /// The inverse of [`append_row`].

@@ -35,7 +35,7 @@ const PELVIS_STEPS: f32 = 8_388_607.0;
 /// Steps of a contact: 16 bits.
 const CONTACT_STEPS: f32 = 65_535.0;
 /// Greatest metre, second, radian or velocity; the largest of any scenario are the 86,400 s of a day.
-const SCALAR_MAX: f32 = 1e5;
+pub(crate) const SCALAR_MAX: f32 = 1e5;
 
 /// What is wrong with the bytes of an agent in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

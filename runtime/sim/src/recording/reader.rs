@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use glam::Quat;
+use glam::{Quat, Vec2};
 
-use crate::population::Population;
+use crate::population::{AgentId, Population};
 use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{
@@ -127,6 +127,26 @@ impl Recording {
         self.check_agents(index, byte, agents)
     }
 
+    /// Ids and positions (world, m) of the agents of one frame, in the order of ids; several times as fast as
+    /// [`read_frame`](Self::read_frame).
+    ///
+    /// # Errors
+    /// If there is no such frame or its bytes are altered.
+    pub fn read_positions(&self, index: usize) -> Result<Vec<(AgentId, Vec2)>, RecordingError> {
+        if self.frames.version == FORMAT_VERSION_1 {
+            let mut agents = Vec::new();
+            self.read_frame(index, &mut agents)?;
+            return Ok(agents.iter().map(|agent| (agent.id, agent.root.position_m)).collect());
+        }
+        let byte = *self.frames.bytes.get(index).ok_or_else(|| self.no_such_frame(index))?;
+        let payload = self.file.read_chunk(byte, FRAME, most_frame_bytes(self.agent_count(index), ROW_BYTES))?;
+        let compressed = self.compressed_rows(index, byte, &payload, ROW_BYTES)?;
+        let positions_m = frame_chunk::read_positions(compressed, self.agent_count(index))
+            .ok_or_else(|| self.damaged_frame(index, byte))?;
+        positions_m.iter().try_for_each(|(id, _)| self.check_present(*id, index, byte))?;
+        Ok(positions_m)
+    }
+
     /// Replaces `rotations` by those of the extra joints in one frame, relative to their parents: agent by agent as in
     /// [`read_frame`](Self::read_frame), each with the joints that the header lists. None where the header lists none.
     ///
@@ -149,13 +169,27 @@ impl Recording {
 
     /// The rows of all agents of a frame, of `row_bytes` bytes each, in the payload of the chunk at `byte`.
     fn rows(&self, index: usize, byte: u64, payload: &[u8], row_bytes: usize) -> Result<Vec<u8>, RecordingError> {
-        let expected = self.agent_count(index);
-        let damaged = || self.file.damaged(byte, format!("this is not frame {index} with {expected} agents"));
-        let (start, compressed) = frame_chunk::start(payload, row_bytes).ok_or_else(damaged)?;
-        if start != (FrameStart { number: index as u32, agent_count: expected }) {
-            return Err(damaged());
+        let compressed = self.compressed_rows(index, byte, payload, row_bytes)?;
+        decompress(compressed, row_bytes, self.agent_count(index)).ok_or_else(|| self.damaged_frame(index, byte))
+    }
+
+    /// As [`Self::rows`], still compressed.
+    fn compressed_rows<'a>(
+        &self,
+        index: usize,
+        byte: u64,
+        payload: &'a [u8],
+        row_bytes: usize,
+    ) -> Result<&'a [u8], RecordingError> {
+        let expected = FrameStart { number: index as u32, agent_count: self.agent_count(index) };
+        match frame_chunk::start(payload, row_bytes) {
+            Some((start, compressed)) if start == expected => Ok(compressed),
+            _ => Err(self.damaged_frame(index, byte)),
         }
-        decompress(compressed, row_bytes, expected).ok_or_else(damaged)
+    }
+
+    fn damaged_frame(&self, index: usize, byte: u64) -> RecordingError {
+        self.file.damaged(byte, format!("this is not frame {index} with {} agents", self.agent_count(index)))
     }
 
     fn no_such_frame(&self, index: usize) -> RecordingError {
@@ -165,17 +199,20 @@ impl Recording {
     /// Checks that the agents of a frame are those that are present in it, in known states.
     fn check_agents(&self, index: usize, byte: u64, agents: &[AgentFrame]) -> Result<(), RecordingError> {
         for agent in agents {
-            let life = self.population.agents.get(agent.id.index());
-            if !life.is_some_and(|life| life.is_present(index as u32)) {
-                let what = format!("agent {} is not present in frame {index}", agent.id.0);
-                return Err(self.file.damaged(byte, what));
-            }
+            self.check_present(agent.id, index, byte)?;
             if usize::from(agent.state) >= self.header.states.len() {
                 let what = format!("the state of agent {} in frame {index} has no name", agent.id.0);
                 return Err(self.file.damaged(byte, what));
             }
         }
         Ok(())
+    }
+
+    fn check_present(&self, id: AgentId, index: usize, byte: u64) -> Result<(), RecordingError> {
+        match self.population.agents.get(id.index()) {
+            Some(life) if life.is_present(index as u32) => Ok(()),
+            _ => Err(self.file.damaged(byte, format!("agent {} is not present in frame {index}", id.0))),
+        }
     }
 
     /// As [`Self::read_frame`], from a payload of version 1.
