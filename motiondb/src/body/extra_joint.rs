@@ -154,6 +154,14 @@ impl ExtraJoint {
         }
     }
 
+    /// The role that the joint hangs from, over other extra joints.
+    pub fn role(self) -> Joint {
+        match self.parent() {
+            ExtraParent::Role(role) => role,
+            ExtraParent::Extra(parent) => parent.role(),
+        }
+    }
+
     /// The joint of a name.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().find(|joint| joint.name() == name)

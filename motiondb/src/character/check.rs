@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use crate::body::Joint;
+use crate::body::{ExtraParent, Joint};
 use crate::character::model::{Character, CharacterExtra, CharacterMesh, Material, WEIGHT_COUNT};
 use crate::character::texture::{CutOut, TEXTURE_PIXELS_MAX, TEXTURE_SIDE_MAX};
 
@@ -71,12 +71,16 @@ fn joints_fault(character: &Character) -> Option<String> {
     None
 }
 
-/// Each extra joint comes after its parent.
+/// Each extra joint hangs from a role, or comes after the extra joint that it hangs from.
 fn extra_fault(character: &Character) -> Option<String> {
     let Character { joints, extra, .. } = character;
     let is_turn = |turn: Quat| (turn.length_squared() - 1.0).abs() < UNIT_TOLERANCE;
     let is_sound = |known: &CharacterExtra| {
-        let is_after_parent = character.extra_parent(known.extra).is_some_and(|parent| parent < known.joint as usize);
+        // Roles are posed first: a finger may hang from the forearm, before the hand in the file.
+        let is_after_parent = match known.extra.parent() {
+            ExtraParent::Role(role) => character.joint(role).is_some(),
+            ExtraParent::Extra(parent) => character.extra_joint(parent).is_some_and(|at| at < known.joint as usize),
+        };
         let is_role = character.roles.contains(&Some(known.joint));
         is_after_parent && !is_role && is_turn(known.parent_axes) && is_turn(known.axes)
     };

@@ -2,7 +2,9 @@
 //!
 //! A scale makes the hips of both equally high above the soles. A constant rotation of each role turns the character's
 //! bind bone to the skeleton's rest bone, so an A-pose, relaxed elbows and a bent spine vanish:
-//! - thighs, shanks, upper arms and forearms: the shortest arc from bone to bone; hands turn with their forearms;
+//! - thighs, shanks, upper arms and forearms: the shortest arc from bone to bone;
+//! - hands: from the character's palm to the skeleton's, which faces down; without known fingers they turn with their
+//!   forearms;
 //! - the spine as a whole: the shortest arc from the line between pelvis and neck to that of the skeleton, so the
 //!   curve of the character's back stays its own;
 //! - feet and toes: about the vertical, from the character's ankle → ball to the skeleton's;
@@ -11,7 +13,7 @@
 use glam::{Quat, Vec3};
 
 use crate::body::two_bone_reach::shortest_arc;
-use crate::body::{JOINT_COUNT, Joint, Skeleton};
+use crate::body::{ExtraParent, JOINT_COUNT, Joint, Skeleton};
 use crate::character::model::Character;
 
 /// Greatest deviation of the scale from 1 for which a character's legs count as those of the skeleton.
@@ -95,7 +97,8 @@ fn turns(character: &Character, skeleton: &Skeleton, rest_m: &[Vec3; JOINT_COUNT
         let [upper, lower, end] = [0, 1, 2].map(|bone| Joint::ALL[first.index() + bone]);
         turns[upper.index()] = turn(upper, lower).unwrap_or(Quat::IDENTITY);
         turns[lower.index()] = turn(lower, end).unwrap_or(turns[upper.index()]);
-        turns[end.index()] = turns[lower.index()];
+        let palm = character.extra.iter().find(|known| known.extra.parent() == ExtraParent::Role(end));
+        turns[end.index()] = palm.map_or(turns[lower.index()], |known| known.parent_axes.conjugate());
     }
     for side in 0..2 {
         let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);

@@ -6,7 +6,7 @@
 
 use glam::{DMat4, DQuat, DVec3};
 use motiondb::body::extra_joint::FINGER_JOINTS;
-use motiondb::body::{ExtraJoint, ExtraPart, JOINT_COUNT, Joint, Side};
+use motiondb::body::{ExtraJoint, JOINT_COUNT, Joint, Side};
 
 use crate::character::bind_pose::BindPose;
 use crate::character::extensions::BoneTable;
@@ -16,6 +16,7 @@ use crate::extra_joints::extra_tracks::ExtraTracks;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::anchors::JointAnchor;
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
+use crate::retarget::palm::turn_to_palms;
 use crate::rig::roles::{ARMS, JointMap, LEGS, Roles, SourceExtra};
 
 /// VRM's names of the joints of each finger, after the side, from the palm outwards: a thumb has no `Metacarpal` in VRM 0, and
@@ -65,7 +66,7 @@ pub(crate) fn extra_bones(
         let node = |name: &str| table.get(name).and_then(|&node| place(*pose.slot_of.get(node)?));
         Side::BOTH.into_iter().for_each(|side| take_fingers(&clip, &mut roles, side, node));
     }
-    roles.extra.retain(|extra| joints[base_role(extra.joint).index()].is_some());
+    roles.extra.retain(|extra| joints[extra.joint.role().index()].is_some());
     calibrated(&clip, &roles, kept)
 }
 
@@ -83,7 +84,7 @@ fn take_fingers(clip: &SourceClip, roles: &mut Roles, side: Side, node: impl Fn(
         |finger: usize| finger_joints(clip, &chain(finger), |joint| ExtraJoint::finger(side, finger, joint));
     let found: Vec<SourceExtra> = (0..VRM_FINGERS.len()).flat_map(of_finger).collect();
     if !found.is_empty() {
-        roles.extra.retain(|extra| base_role(extra.joint) != role);
+        roles.extra.retain(|extra| extra.joint.role() != role);
         roles.extra.extend(found);
         roles.extra.sort();
     }
@@ -113,15 +114,6 @@ fn finger_joints(clip: &SourceClip, chain: &[usize], joint: impl Fn(usize) -> Ex
     (0..chain.len().min(FINGER_JOINTS)).map(extra).collect()
 }
 
-/// The role that an extra joint hangs from, over other extra joints.
-fn base_role(joint: ExtraJoint) -> Joint {
-    match joint.part() {
-        ExtraPart::Finger { .. } => ARMS[joint.side().index()][2],
-        ExtraPart::Twist { limb } => limb,
-        ExtraPart::Toe { .. } => Joint::TOES[joint.side().index()],
-    }
-}
-
 /// A clip turned into body axes.
 fn in_body_axes(mut clip: SourceClip, to_body: &DMat4) -> SourceClip {
     let turn = to_body.to_scale_rotation_translation().1;
@@ -135,11 +127,12 @@ fn calibrated(clip: &SourceClip, roles: &Roles, kept: &[usize]) -> Vec<ExtraBone
     let at_role = |joint: Joint| JointAnchor { joint: roles.joints[joint.index()].unwrap_or(0), offset_m: DVec3::ZERO };
     let anchors = Joint::ALL.map(at_role);
     // R = G·K, with R the axes in the bind pose.
-    let constants = Joint::ALL.map(|joint| {
+    let mut constants = Joint::ALL.map(|joint| {
         let source = clip.orientation(0, anchors[joint.index()].joint);
         (source.inverse() * limb_axes(clip, roles, joint)).normalize()
     });
     let tracks = JointTracks { clip, roles, anchors: &anchors, forward: &[DVec3::X], upright: &[0] };
+    turn_to_palms(&tracks, &mut constants);
     let calibrated = CalibratedTracks { tracks, constants: &constants };
     let bone = |(extra, [parent_axes, axes]): (&SourceExtra, [DQuat; 2])| ExtraBone {
         extra: extra.joint,
@@ -150,8 +143,8 @@ fn calibrated(clip: &SourceClip, roles: &Roles, kept: &[usize]) -> Vec<ExtraBone
     roles.extra.iter().zip(ExtraTracks::of(&calibrated).axes(&calibrated, 0)).map(bone).collect()
 }
 
-/// The axes of a role in the bind pose: those of the rest, turned by the shortest arc to the bone of a limb. Hands go on
-/// along their forearms.
+/// The axes of a role in the bind pose: those of the rest, turned by the shortest arc to the bone of a limb. Hands whose
+/// palms are not known go on along their forearms.
 fn limb_axes(clip: &SourceClip, roles: &Roles, joint: Joint) -> DQuat {
     let bone = |rest: DVec3, [from, to]: [Joint; 2]| {
         let position_m = |joint: Joint| Some(clip.position(0, roles.joints[joint.index()]?));

@@ -5,7 +5,6 @@
 //!
 //! | joint | first direction, matched exactly | second direction |
 //! |---|---|---|
-//! | palm | wrist → knuckles, ±y | little → index knuckle, +x |
 //! | finger | to the next joint or the tip, ±y | the palm's x; after the first joint, that of the joint before |
 //! | thumb | to the next joint or the tip, ±y | the palm's z; after the first joint, that of the joint before |
 //! | toe | to the tip, +x | the foot's z |
@@ -15,11 +14,11 @@
 //! shortest arc from bone to bone, which no bend of the finger changes. A curled finger that is spread would turn the
 //! palm's x by 17°.
 //!
-//! Fingers are relative to the palm, which stands for the hand: so clips of different rigs share a frame, however the
-//! hand was calibrated. A palm of fewer than two known fingers is the hand. World frame of the clip: metres, z up.
+//! Fingers are relative to the hand, whose axes are those of its palm ([`crate::retarget::palm`]): so clips of different rigs
+//! share a frame. World frame of the clip: metres, z up.
 
-use glam::{DMat3, DQuat, DVec3};
-use motiondb::body::{ExtraJoint, ExtraParent, ExtraPart, Joint, Side};
+use glam::{DQuat, DVec3};
+use motiondb::body::{ExtraJoint, ExtraParent, ExtraPart};
 use motiondb::statistics::mean;
 
 use crate::extra_joints::clip_extra::ClipExtra;
@@ -29,16 +28,12 @@ use crate::retarget::joint_tracks::CalibratedTracks;
 use crate::rig::roles::SourceExtra;
 use crate::rig::sampled_frames;
 
-/// Hands, `[left, right]`.
-const HANDS: [Joint; 2] = [Joint::LeftHand, Joint::RightHand];
 /// Length below which a bone of a finger has no direction, m.
 const SHORTEST_BONE_M: f64 = 1e-3;
 
 /// The extra joints of a source, calibrated.
 pub(crate) struct ExtraTracks {
     joints: Vec<ExtraTrack>,
-    /// Rotation of each palm in the frame of the source's hand, `[left, right]`.
-    palms: [DQuat; 2],
 }
 
 /// An extra joint, calibrated.
@@ -54,8 +49,7 @@ impl ExtraTracks {
     /// Calibrates the extra joints of a clip.
     pub(crate) fn of(calibrated: &CalibratedTracks) -> Self {
         let extra = &calibrated.tracks.roles.extra;
-        let palms = Side::BOTH.map(|side| if extra.is_empty() { DQuat::IDENTITY } else { palm(calibrated, side) });
-        let mut found = Self { joints: Vec::with_capacity(extra.len()), palms };
+        let mut found = Self { joints: Vec::with_capacity(extra.len()) };
         let mut bones: Vec<Option<DVec3>> = Vec::with_capacity(extra.len());
         for joint in extra {
             let parent = match joint.joint.parent() {
@@ -84,7 +78,7 @@ impl ExtraTracks {
         self.joints.iter().map(turn).collect()
     }
 
-    /// Orientations of each joint's parent and of the joint itself, `[parent, own]`; the palm stands for the hand.
+    /// Orientations of each joint's parent and of the joint itself, `[parent, own]`.
     pub(crate) fn axes(&self, calibrated: &CalibratedTracks, frame: usize) -> Vec<[DQuat; 2]> {
         let axes = |track: &ExtraTrack| [self.parent_turn(calibrated, track, frame), track.turn(calibrated, frame)];
         self.joints.iter().map(axes).collect()
@@ -162,16 +156,9 @@ impl ExtraTracks {
         mean_rotation(sampled_frames(calibrated.tracks.frame_count()).into_iter().map(in_source))
     }
 
-    /// Orientation of the palm or of the role that a joint hangs from, over other extra joints.
+    /// Orientation of the role that a joint hangs from, over other extra joints.
     fn base(&self, calibrated: &CalibratedTracks, joint: ExtraJoint, frame: usize) -> DQuat {
-        let side = joint.side().index();
-        match joint.part() {
-            ExtraPart::Finger { .. } => {
-                (calibrated.tracks.source_orientation(HANDS[side], frame) * self.palms[side]).normalize()
-            }
-            ExtraPart::Twist { limb } => calibrated.orientation(limb, frame),
-            ExtraPart::Toe { .. } => calibrated.orientation(Joint::TOES[side], frame),
-        }
+        calibrated.orientation(joint.role(), frame)
     }
 
     fn parent_turn(&self, calibrated: &CalibratedTracks, track: &ExtraTrack, frame: usize) -> DQuat {
@@ -193,31 +180,6 @@ impl ExtraTrack {
         let turn = self.turn(calibrated, frame);
         DQuat::from_rotation_arc(turn * along, bone.normalize()) * turn
     }
-}
-
-/// Rotation of a palm in the frame of the source's hand.
-fn palm(calibrated: &CalibratedTracks, side: Side) -> DQuat {
-    let tracks = &calibrated.tracks;
-    let hand = HANDS[side.index()];
-    let knuckle = |finger: usize| {
-        let joint = ExtraJoint::finger(side, finger, 0);
-        let source = tracks.roles.extra.iter().find(|extra| extra.joint == joint)?.source;
-        let in_hand = |frame| {
-            let from_wrist_m = tracks.clip.position(frame, source) - tracks.position_m(hand, frame);
-            tracks.source_orientation(hand, frame).inverse() * from_wrist_m
-        };
-        mean(sampled_frames(tracks.frame_count()).into_iter().map(in_hand))
-    };
-    let knuckles_m: Vec<DVec3> = (1..5).filter_map(knuckle).collect();
-    let turn = || {
-        let (first_m, last_m) = (knuckles_m.first()?, knuckles_m.last()?);
-        let along = knuckles_m.iter().sum::<DVec3>().try_normalize()?;
-        let across = (*first_m - *last_m).reject_from_normalized(along);
-        let source: Option<DMat3> = (across.length() > SHORTEST_BONE_M).then(|| basis(along, across));
-        let rest = basis(f64::from(side.sign()) * DVec3::Y, DVec3::X);
-        Some(DQuat::from_mat3(&(source? * rest.transpose())))
-    };
-    turn().unwrap_or(calibrated.constants[hand.index()])
 }
 
 /// Direction of a joint's bone in the frame of its source joint; `None` where it has none.

@@ -17,6 +17,7 @@ use crate::retarget::calibration::calibration;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
+use crate::retarget::palm::turn_to_palms;
 use crate::retarget::posture::{self, LowPart};
 use crate::retarget::soles::{Soles, soles};
 use crate::retarget::source_parameters::SourceParameters;
@@ -47,7 +48,8 @@ pub(crate) fn to_human(
     let anchors = anchors(&clip, roles, &forward, leg_m);
     let upright = posture::upright_frames(&clip, &low_parts);
     let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward, upright: &upright };
-    let constants = calibration(&tracks);
+    let mut constants = calibration(&tracks);
+    turn_to_palms(&tracks, &mut constants);
     let calibrated = CalibratedTracks { tracks, constants: &constants };
     let offsets_m = mean_offsets(&calibrated);
     let soles = soles(&calibrated, leg_m);

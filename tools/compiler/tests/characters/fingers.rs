@@ -110,6 +110,27 @@ fn fingers_may_hang_from_the_forearm() {
     check_curl(&character);
 }
 
+#[test]
+fn fingers_may_precede_their_hand() {
+    let mut figure = Figure::adult().with_fingers();
+    // The left hand and its thumb, which hangs from the forearm, change places.
+    let (hand, thumb) = (8, 21);
+    figure.bones[thumb].1 = Some(7);
+    figure.bones.swap(hand, thumb);
+    for (_, parent, _) in &mut figure.bones {
+        *parent = match *parent {
+            Some(joint) if joint == hand => Some(thumb),
+            Some(joint) if joint == thumb => Some(hand),
+            other => other,
+        };
+    }
+    let character = compiled(&figure.glb()).character;
+    let place = |name: &str| character.joints.iter().position(|joint| joint.name == name).unwrap();
+    assert!(place("LeftHandThumb1") < place("LeftHand"));
+    assert_eq!(character.extra.len(), 30);
+    check_curl(&character);
+}
+
 /// Hands that are bound as half a fist, with hanging arms.
 #[test]
 fn fingers_that_are_bound_curled_are_straight_at_rest() {

@@ -1,10 +1,11 @@
 //! Characters: figures as other tools write them give a character, or are rejected by name.
 //!
-//! `figure` and `vrm` make the files; `read`, `textures`, `poses` and `fingers` are about those that are read, `refused` and `many_legs` about the others.
+//! `figure` and `vrm` make the files; `read`, `textures`, `poses`, `fingers` and `palms` are about those that are read, `refused` and `many_legs` about the others.
 
 mod figure;
 mod fingers;
 mod many_legs;
+mod palms;
 mod poses;
 mod read;
 mod refused;
