@@ -23,7 +23,7 @@
 //! metres of its file; the origin lies on the ground under the pelvis.
 //!
 //! Read `model` (the noun), `texture` and `check` (its invariants), `character_file` (`.fbchar`), `fit` (what a character and a
-//! skeleton give once), `posing`, `skinning` with `dye`, and last `choice` (which agent wears which
+//! skeleton give once) with `sole_outline`, `posing`, `skinning` with `dye`, and last `choice` (which agent wears which
 //! character).
 
 mod character_file;
@@ -34,6 +34,7 @@ mod fit;
 mod model;
 mod posing;
 mod skinning;
+mod sole_outline;
 mod texture;
 
 pub use character_file::{MAGIC, VERSION, from_bytes, load, to_bytes, write};
