@@ -15,6 +15,7 @@ use glam::{Quat, Vec3};
 use crate::body::two_bone_reach::shortest_arc;
 use crate::body::{ExtraParent, JOINT_COUNT, Joint, Skeleton};
 use crate::character::model::Character;
+use crate::character::sole_outline::sole_outline_m;
 
 /// Greatest deviation of the scale from 1 for which a character's legs count as those of the skeleton.
 pub const SCALE_TOLERANCE: f32 = 0.1;
@@ -37,6 +38,8 @@ pub struct CharacterFit<'a> {
     pub(crate) extra_leaders: Vec<u32>,
     /// Distance by which each foot stands farther to the left than the skeleton's, `[left, right]`, m.
     pub(crate) wider_m: [f32; 2],
+    /// Outline of each sole, `[left, right]`: points that move with the foot, and with the toes; bind space, m.
+    pub(crate) soles_m: [[Vec<Vec3>; 2]; 2],
     /// Height of the skeleton's hips above the soles at rest, m.
     pub hips_over_soles_m: f32,
 }
@@ -51,12 +54,14 @@ impl<'a> CharacterFit<'a> {
         let hips_m = Joint::THIGHS.map(|thigh| character.role_position_m(thigh).unwrap_or_default().y);
         let rest_hips_m = Joint::THIGHS.map(|thigh| rest_m[thigh.index()].y);
         let wider_m = 0.5 * (scale * (hips_m[0] - hips_m[1]) - (rest_hips_m[0] - rest_hips_m[1]));
+        let leaders = leaders(character);
         Self {
             character,
             scale,
+            soles_m: [0, 1].map(|side| sole_outline_m(character, &leaders, side)),
             wider_m: [wider_m, -wider_m],
             turns: turns(character, skeleton, &rest_m),
-            leaders: leaders(character),
+            leaders,
             extra_leaders: extra_leaders(character),
             hips_over_soles_m,
         }

@@ -25,8 +25,8 @@
 //! metres of its file; the origin lies on the ground under the pelvis.
 //!
 //! Read `model` (the noun), `texture` and `check` (its invariants), `character_file` (`.fbchar`), `fit` (what a character and a
-//! skeleton give once), `posing` with `extra_posing`, `skinning` with `dye`, and last `choice` (which agent wears which
-//! character).
+//! skeleton give once) with `sole_outline`, `posing` with `extra_posing`, `skinning` with `dye`, and last `choice` (which
+//! agent wears which character).
 
 mod character_file;
 mod check;
@@ -37,6 +37,7 @@ mod fit;
 mod model;
 mod posing;
 mod skinning;
+mod sole_outline;
 mod texture;
 
 pub use character_file::{EXTRA_VERSION, MAGIC, VERSION, from_bytes, load, to_bytes, write};

@@ -6,7 +6,7 @@
 //! 3. A leg's inverse kinematics puts the ball of the foot on the sole where the canonical body's is. A foot without
 //!    toes turns about its tip instead while the heel rises, by a smaller angle, so that the ankle rises as high. A foot
 //!    whose ball is above its heel turns about the heel.
-//! 4. Each foot is raised or lowered so that its lowest point is as high as that of the canonical foot.
+//! 4. Each foot is raised or lowered so that the lowest point of its sole is as high as that of the canonical foot.
 //!    A shift along and across the planted foot, whose axes rest meanwhile, keeps the ankle of a flat foot under the
 //!    knee although the foot's length is the character's own, and the feet as far apart as its hips.
 //! 5. The hips sink where a planted leg would not reach the ground.
@@ -147,10 +147,15 @@ impl CharacterFit<'_> {
         let on_heel_m = soles_m[0] - own_m[0] + heel_shift_m;
         let on_heel = ((soles_m[1].z - soles_m[0].z) / ON_HEEL_M).clamp(0.0, 1.0);
         let mut target_m = (on_ball_m + ball_shift_m).lerp(on_heel_m, on_heel);
+        let [of_foot_m, of_toe_m] = &self.soles_m[side];
+        let toe_m = self.character.role_position_m(toe).unwrap_or(ankle_m);
+        let on_foot = of_foot_m.iter().map(|point_m| turned(rotation, ankle_m, *point_m).z);
+        let on_toe =
+            of_toe_m.iter().map(|point_m| turned(rotation, ankle_m, toe_m).z + turned(toe_rotation, toe_m, *point_m).z);
         let lowest_m =
-            |points_m: [Vec3; 3]| points_m.into_iter().map(|point_m| point_m.z).fold(f32::INFINITY, f32::min);
-        let height_m = lowest_m(soles_m);
-        target_m.z += height_m - (target_m.z + lowest_m(own_m));
+            own_m.map(|point_m| point_m.z).into_iter().chain(on_foot).chain(on_toe).fold(f32::INFINITY, f32::min);
+        let height_m = soles_m.map(|point_m| point_m.z).into_iter().fold(f32::INFINITY, f32::min);
+        target_m.z = height_m - lowest_m;
         FootTarget {
             ankle_m: target_m,
             reach_m: EXTENSION_MAX * self.leg_lengths_m(side).into_iter().sum::<f32>(),
