@@ -23,8 +23,8 @@ const SKIRT: [[f32; 4]; 8] = [
 ];
 /// Sections of a coat below the waist.
 const COAT: [[f32; 4]; 8] = [
-    [1.110, 0.146, 0.104, 0.088],
-    [1.070, 0.158, 0.117, 0.101],
+    [1.100, 0.138, 0.096, 0.082],
+    [1.092, 0.157, 0.116, 0.099],
     [1.000, 0.172, 0.122, 0.116],
     [0.925, 0.186, 0.122, 0.138],
     [0.830, 0.194, 0.130, 0.146],
@@ -75,13 +75,13 @@ mod tests {
     use std::path::Path;
 
     use fbcrowd_sim::recording::Recording;
-    use glam::Mat3;
+    use glam::{Mat3, Vec2};
     use motiondb::body::Side;
 
     use super::*;
     use crate::figure::build::Fineness;
     use crate::figure::style::{CLOTHS, Sex};
-    use crate::figure::template::PosedJoint;
+    use crate::figure::template::{Disc, PosedJoint, outline};
     use crate::visibility::{Meshes, Owner};
 
     /// A body at rest whose straight legs are swung forward by angles.
@@ -132,33 +132,58 @@ mod tests {
         }
     }
 
-    #[test]
-    fn legs_stay_inside_a_skirt_in_strides() {
+    /// Checks that a ray forward and one backward from each point of the legs above a height meets the cloth, in strides.
+    fn check_legs_inside(sex: Sex, add_cloth: fn(&mut Template, &Build), add_leg: fn(&mut Template, &Build, Side)) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/walkers.fbrec");
         let recording = Recording::open(&path).unwrap();
         for fineness in Fineness::ALL {
-            let build = Build::new(recording.header().skeleton(), Sex::Female, fineness);
+            let build = Build::new(recording.header().skeleton(), sex, fineness);
             for forward_rad in [[0.35, -0.35], [0.5, -0.4], [-0.4, 0.5], [0.52, -0.3], [0.6, -0.5]] {
                 let joints = striding(&build, forward_rad);
-                let (mut skirt, mut legs) = (Template::default(), Template::default());
-                skirt.add_skirt(&build);
-                Side::BOTH.into_iter().for_each(|side| legs.add_bare_leg(&build, side));
-                let [skirt, legs] = [skirt, legs].map(|template| posed(template, &joints));
+                let (mut cloth, mut legs) = (Template::default(), Template::default());
+                add_cloth(&mut cloth, &build);
+                Side::BOTH.into_iter().for_each(|side| add_leg(&mut legs, &build, side));
+                let [cloth, legs] = [cloth, legs].map(|template| posed(template, &joints));
                 let covers = |from_m: Vec3, direction: Vec3| {
-                    (0..skirt.triangles.len()).any(|triangle| meets(skirt.corners_m(triangle), from_m, direction))
+                    (0..cloth.triangles.len()).any(|triangle| meets(cloth.corners_m(triangle), from_m, direction))
                 };
                 // Above the hem where a thigh lifts it.
                 let above = legs.positions_m.iter().filter(|point_m| point_m.z > 0.72 * build.scale);
                 let mut count = 0;
                 for point_m in above {
                     count += 1;
-                    assert!(
-                        covers(*point_m, Vec3::X) && covers(*point_m, -Vec3::X),
-                        "{fineness:?} {forward_rad:?} {point_m}"
-                    );
+                    // Not through an edge.
+                    let beside_m = *point_m + Vec3::new(0.0, 1e-4, 2e-4);
+                    let is_covered = [Vec3::X, -Vec3::X].map(|direction| covers(beside_m, direction));
+                    assert_eq!(is_covered, [true; 2], "{fineness:?} {forward_rad:?} {point_m}");
                 }
                 assert!(count > 0, "{forward_rad:?}");
             }
         }
+    }
+
+    #[test]
+    fn legs_stay_inside_a_skirt_in_strides() {
+        check_legs_inside(Sex::Female, Template::add_skirt, Template::add_bare_leg);
+    }
+
+    #[test]
+    fn trousers_stay_inside_a_coat_in_strides() {
+        for sex in [Sex::Male, Sex::Female] {
+            check_legs_inside(sex, Template::add_coat, Template::add_trouser_leg);
+        }
+    }
+
+    #[test]
+    fn cloth_is_straight_between_the_thighs() {
+        let discs = [-0.1, 0.1].map(|aside| Disc { centre: Vec2::new(0.0, aside), radius: 0.08 });
+        for angle_rad in [-0.6_f32, 0.0, 0.3, 0.8] {
+            let outward = Vec2::from_angle(angle_rad);
+            assert!((outline(&discs, outward) * outward.x - 0.08).abs() < 1e-6, "{angle_rad}");
+        }
+        assert!((outline(&discs, Vec2::Y) - 0.18).abs() < 1e-6);
+        // One within the other: the larger one alone.
+        let within = [discs[0], Disc { radius: 0.3, ..discs[0] }];
+        assert!((outline(&within, Vec2::X) - (0.09_f32 - 0.01).sqrt()).abs() < 1e-6);
     }
 }

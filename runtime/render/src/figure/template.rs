@@ -1,6 +1,6 @@
 //! A mesh in the rest pose, and what moves its vertices: joints, and thighs that push hanging cloth out. Metres.
 
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 use motiondb::body::Joint;
 
 use crate::figure::section::Section;
@@ -8,11 +8,11 @@ use crate::figure::style::{CLOTHS, Cloth};
 use crate::visibility::{MeshSize, Meshes, Owner};
 
 /// Radius of a thigh with trousers at hip and knee, and the room between it and cloth, on the reference body, m.
-const THIGH_M: [f32; 2] = [0.086, 0.066];
+const THIGH_M: [f32; 2] = [0.103, 0.067];
 /// Width over which cloth bends where a thigh begins to push it, on the reference body, m.
 const BEND_M: f32 = 0.03;
 /// Share of the thigh from which cloth is pushed fully; above the hips it is tight.
-const LOOSE_FROM: f32 = 0.3;
+const LOOSE_FROM: f32 = 0.2;
 /// Distance by which the hem stands out from the waist at rest, on the reference body, m.
 const FLARE_M: f32 = 0.06;
 
@@ -126,8 +126,8 @@ struct Thigh {
 }
 
 impl HangingCloth {
-    /// Pushes vertices out that a thigh would pass: each to the greatest distance from the middle line that a thigh has in
-    /// its direction, at its height. The cloth then holds both thighs. What is pushed out hangs higher.
+    /// Pushes vertices out that the thighs would pass: each to where the convex outline of both thighs is in its direction
+    /// from the middle line, at its height. Between the thighs cloth is straight. What is pushed out hangs higher.
     fn clear_legs(&self, vertices: &[Vertex], positions: &mut [Vec3], joints: &[PosedJoint]) {
         let pelvis = joints[Joint::Pelvis.index()];
         let waist = pelvis.to_world(self.waist);
@@ -135,6 +135,8 @@ impl HangingCloth {
             ends: [Joint::THIGHS[side], Joint::SHANKS[side]].map(|joint| joints[joint.index()].position),
             radii: THIGH_M.map(|radius| radius * self.scale),
         });
+        // Half the angle between two points of a ring, in front: edges between them are to pass outside the thighs.
+        let half_gap = direction_of(1.25 * std::f32::consts::TAU / self.inner.max(8) as f32);
         // The last two vertices are the middles of the caps.
         let rings = &vertices[..vertices.len().saturating_sub(2)];
         for (index, (vertex, position)) in rings.iter().zip(positions).enumerate() {
@@ -142,7 +144,10 @@ impl HangingCloth {
             let Some(outward) = (pelvis.rotation * offset).with_z(0.0).try_normalize() else { continue };
             let thickness = if index < self.inner { 0.0 } else { self.hem };
             let middle = pelvis.to_world(vertex.position - offset);
-            let reach = thighs.iter().map(|thigh| thigh.reach(position.z, middle, outward)).fold(0.0, f32::max);
+            let discs = thighs.each_ref().map(|thigh| thigh.disc(position.z, middle));
+            let ahead = outward.truncate();
+            let beside = [half_gap, half_gap * Vec2::new(1.0, -1.0)].map(|turn| outline(&discs, turn.rotate(ahead)));
+            let reach = beside.map(|reach| reach / half_gap.x).into_iter().fold(outline(&discs, ahead), f32::max);
             let here = (*position - middle).dot(outward);
             let loose = thighs.iter().map(|thigh| thigh.share(position.z) / LOOSE_FROM).fold(1.0, f32::min);
             let pushed = loose * (smooth_max(here, reach + thickness, BEND_M * self.scale) - here);
@@ -153,6 +158,43 @@ impl HangingCloth {
     }
 }
 
+/// Unit vector at an angle from x.
+fn direction_of(angle_rad: f32) -> Vec2 {
+    let (sin, cos) = libm::sincosf(angle_rad);
+    Vec2::new(cos, sin)
+}
+
+/// A level section of a thigh.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Disc {
+    /// From the middle line of the cloth.
+    pub(crate) centre: Vec2,
+    pub(crate) radius: f32,
+}
+
+/// Distance from the middle line to the convex outline of two discs in a direction; 0 where it is not met.
+pub(crate) fn outline(discs: &[Disc; 2], outward: Vec2) -> f32 {
+    let of_disc = |disc: &Disc| {
+        let aside = outward.perp_dot(disc.centre);
+        let square = disc.radius * disc.radius - aside * aside;
+        if square < 0.0 { 0.0 } else { disc.centre.dot(outward) + square.sqrt() }
+    };
+    let reach = discs.iter().map(of_disc).fold(0.0, f32::max);
+    let between = discs[1].centre - discs[0].centre;
+    let narrower = (discs[0].radius - discs[1].radius) / between.length().max(1e-6);
+    let Some(along) = between.try_normalize().filter(|_| narrower.abs() < 1.0) else { return reach };
+    // Both straight sides touch the discs where their common normal points.
+    let across = (1.0 - narrower * narrower).sqrt();
+    [across, -across].into_iter().fold(reach, |reach, across| {
+        let normal = narrower * along + across * along.perp();
+        let [from, to] = discs.map(|disc| disc.centre + disc.radius * normal);
+        let [side_from, side_to] = [from, to].map(|end| outward.perp_dot(end));
+        let crosses = side_from * side_to < 0.0;
+        let at = from + (to - from) * (side_from / (side_from - side_to));
+        if crosses { reach.max(at.dot(outward)) } else { reach }
+    })
+}
+
 impl Thigh {
     /// Share of the thigh above a height.
     fn share(&self, height: f32) -> f32 {
@@ -160,15 +202,15 @@ impl Thigh {
         ((hip.z - height) / (hip.z - knee.z).max(0.1)).clamp(0.0, 1.0)
     }
 
-    /// Distance from a middle line to the far side of the thigh's section at a height, in a direction.
-    fn reach(&self, height: f32, middle: Vec3, outward: Vec3) -> f32 {
+    /// The section at a height, from a middle line.
+    fn disc(&self, height: f32, middle: Vec3) -> Disc {
         let [hip, knee] = self.ends;
         let along = knee - hip;
         // The section of a thigh that is swung is longer.
         let stretch = along.length() / along.z.abs().max(0.5 * along.length());
         let share = self.share(height);
         let radius = stretch * (self.radii[0] + share * (self.radii[1] - self.radii[0]));
-        (hip + share * along - middle).dot(outward) + radius
+        Disc { centre: (hip + share * along - middle).truncate(), radius }
     }
 }
 
