@@ -13,10 +13,10 @@ use crate::character::extensions::BoneTable;
 use crate::character::joint_roles::{SlotMap, clip};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::extra_joints::extra_tracks::ExtraTracks;
+use crate::extra_joints::palm::turn_to_palms;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::anchors::JointAnchor;
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
-use crate::retarget::palm::turn_to_palms;
 use crate::rig::roles::{ARMS, JointMap, LEGS, Roles, SourceExtra};
 
 /// VRM's names of the joints of each finger, after the side, from the palm outwards: a thumb has no `Metacarpal` in VRM 0, and

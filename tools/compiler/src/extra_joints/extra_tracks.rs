@@ -14,7 +14,7 @@
 //! shortest arc from bone to bone, which no bend of the finger changes. A curled finger that is spread would turn the
 //! palm's x by 17°.
 //!
-//! Fingers are relative to the hand, whose axes are those of its palm ([`crate::retarget::palm`]): so clips of different rigs
+//! Fingers are relative to the hand, whose axes are those of its palm ([`crate::extra_joints::palm`]): so clips of different rigs
 //! share a frame. World frame of the clip: metres, z up.
 
 use glam::{DQuat, DVec3};

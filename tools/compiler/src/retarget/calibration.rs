@@ -15,7 +15,7 @@
 //! | thigh, shank | to the child, −z | knee hinge, +y |
 //! | foot, toe | up while flat on the ground, +z | to the toe, +x |
 //!
-//! Hands with fingers are turned to their palms afterwards ([`crate::retarget::palm`]).
+//! Hands with fingers are turned to their palms afterwards ([`crate::extra_joints::palm`]).
 //!
 //! A hinge is the mean cross product of the limb's two bones, which weighs frames by flexion, plus a little of the axis
 //! about which a straight limb would bend. For knees that stay straight it is that axis alone.

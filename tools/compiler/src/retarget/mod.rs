@@ -4,8 +4,8 @@
 //! (metres, z up, soles at z = 0); the mean speed, turn rate and side speed of the clip.
 //!
 //! Read `stated_facing`, `foot_passings` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters`
-//! (whole-clip parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration`, `palm` and `soles`;
-//! last `to_humanoid`, which makes the `human_clip`, with its [`crate::extra_joints`].
+//! (whole-clip parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last
+//! `to_humanoid`, which makes the `human_clip`, with its [`crate::extra_joints`].
 
 pub(crate) mod anchors;
 pub(crate) mod calibration;
@@ -13,7 +13,6 @@ pub(crate) mod facing_frame;
 pub(crate) mod foot_passings;
 pub(crate) mod human_clip;
 pub(crate) mod joint_tracks;
-pub(crate) mod palm;
 pub(crate) mod posture;
 pub(crate) mod soles;
 pub(crate) mod source_parameters;

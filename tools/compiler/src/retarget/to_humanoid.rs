@@ -11,13 +11,13 @@ use motiondb::motion::SourceRecord;
 
 use crate::error::RejectionReason;
 use crate::extra_joints::extra_tracks::ExtraTracks;
+use crate::extra_joints::palm::turn_to_palms;
 use crate::read::source_clip::{SourceClip, with_room};
 use crate::retarget::anchors::anchors;
 use crate::retarget::calibration::calibration;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
-use crate::retarget::palm::turn_to_palms;
 use crate::retarget::posture::{self, LowPart};
 use crate::retarget::soles::{Soles, soles};
 use crate::retarget::source_parameters::SourceParameters;
