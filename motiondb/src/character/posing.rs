@@ -147,13 +147,11 @@ impl CharacterFit<'_> {
         let on_heel_m = soles_m[0] - own_m[0] + heel_shift_m;
         let on_heel = ((soles_m[1].z - soles_m[0].z) / ON_HEEL_M).clamp(0.0, 1.0);
         let mut target_m = (on_ball_m + ball_shift_m).lerp(on_heel_m, on_heel);
-        let [of_foot_m, of_toe_m] = &self.soles_m[side];
-        let toe_m = self.character.role_position_m(toe).unwrap_or(ankle_m);
-        let on_foot = of_foot_m.iter().map(|point_m| turned(rotation, ankle_m, *point_m).z);
-        let on_toe =
-            of_toe_m.iter().map(|point_m| turned(rotation, ankle_m, toe_m).z + turned(toe_rotation, toe_m, *point_m).z);
-        let lowest_m =
-            own_m.map(|point_m| point_m.z).into_iter().chain(on_foot).chain(on_toe).fold(f32::INFINITY, f32::min);
+        let lowest_m = own_m
+            .map(|point_m| point_m.z)
+            .into_iter()
+            .chain(self.outline_heights_m(rotation, toe_rotation, side))
+            .fold(f32::INFINITY, f32::min);
         let height_m = soles_m.map(|point_m| point_m.z).into_iter().fold(f32::INFINITY, f32::min);
         target_m.z = height_m - lowest_m;
         FootTarget {
@@ -161,6 +159,17 @@ impl CharacterFit<'_> {
             reach_m: EXTENSION_MAX * self.leg_lengths_m(side).into_iter().sum::<f32>(),
             planted: (1.0 - height_m / LIFTED_M).clamp(0.0, 1.0),
         }
+    }
+
+    /// Heights of the outline of a sole above the ankle of a foot and toes with rotations from bind, m.
+    fn outline_heights_m(&self, foot: Quat, toe: Quat, side: usize) -> impl Iterator<Item = f32> {
+        let ankle_m = self.bind_m(Joint::FEET[side]);
+        let toe_m = self.character.role_position_m(Joint::TOES[side]).unwrap_or(ankle_m);
+        let above_m = move |rotation: Quat, from_m: Vec3, to_m: Vec3| (rotation * (self.scale * (to_m - from_m))).z;
+        let [of_foot_m, of_toe_m] = &self.soles_m[side];
+        let on_foot = of_foot_m.iter().map(move |point_m| above_m(foot, ankle_m, *point_m));
+        let on_toe = of_toe_m.iter().map(move |point_m| above_m(foot, ankle_m, toe_m) + above_m(toe, toe_m, *point_m));
+        on_foot.chain(on_toe)
     }
 
     /// Displacements of a foot's heel and ball from the canonical ones along and across its planted direction, m: so that

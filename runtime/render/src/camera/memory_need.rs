@@ -27,7 +27,7 @@ const VERTEX_BYTES: usize = 52;
 const TRIANGLE_BYTES: usize = 24;
 /// Bytes of a vertex in the frames before and after, for the motion pass.
 const MOTION_BYTES: usize = 24;
-/// Greatest number of frames that are read, at even steps.
+/// Greatest number of frames that are read, at even steps, beside the last one.
 const READ_FRAMES: usize = 7;
 
 /// Memory of the largest of some frames, about.

@@ -15,6 +15,8 @@ const BEND_M: f32 = 0.03;
 const LOOSE_FROM: f32 = 0.2;
 /// Distance by which the hem stands out from the waist at rest, on the reference body, m.
 const FLARE_M: f32 = 0.06;
+/// Angle beside a point of a ring within which cloth clears the thighs, of half the angle to the next point.
+const CLEARED_GAP: f32 = 1.25;
 
 /// A vertex of a template.
 #[derive(Clone, Copy, Debug)]
@@ -135,8 +137,8 @@ impl HangingCloth {
             ends: [Joint::THIGHS[side], Joint::SHANKS[side]].map(|joint| joints[joint.index()].position),
             radii: THIGH_M.map(|radius| radius * self.scale),
         });
-        // Half the angle between two points of a ring, in front: edges between them are to pass outside the thighs.
-        let half_gap = direction_of(1.25 * std::f32::consts::TAU / self.inner.max(8) as f32);
+        // Edges between two points of a ring are to pass outside the thighs, too. The inner vertices are two rings.
+        let half_gap = direction_of(CLEARED_GAP * std::f32::consts::TAU / self.inner.max(8) as f32);
         // The last two vertices are the middles of the caps.
         let rings = &vertices[..vertices.len().saturating_sub(2)];
         for (index, (vertex, position)) in rings.iter().zip(positions).enumerate() {

@@ -130,11 +130,11 @@ impl SeenBodies {
             let top = head.y.min(feet.y - 2.0 * half);
             let columns = cells(middle - half, middle + half);
             let rows = cells(top, feet.y);
-            drawn.heights_px[index] = feet.y - top;
+            let height_px = feet.y - top;
+            drawn.heights_px[index] = height_px;
             drawn.whole[index] = (columns[1] - columns[0]) * (rows[1] - rows[0]);
             let [columns, rows] = [inside(columns, width), inside(rows, height)];
             if !columns.is_empty() && !rows.is_empty() {
-                let height_px = feet.y - top;
                 all_px += height_px;
                 lost_px += height_px * cut_loss(lens, [middle - half, top], [middle + half, feet.y]);
             }
