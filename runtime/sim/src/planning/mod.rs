@@ -2,11 +2,13 @@
 //!
 //! Enters: [`WorldView`], the frozen state of agents, walls and stance feet. Leaves: one [`Plan`] per agent.
 //!
-//! Read `plan` and `world_view`, then `surroundings` (the neighbours and walls near one agent) and `planner`, which
-//! chooses between [`mcn`] (the paper's) and the [`baselines`]. [`orca`] holds the half-planes and linear programs that
-//! they share, `plan_all` plans a crowd, `plan_explanation` shows why a velocity was planned.
+//! Read `plan` and `world_view`, then `surroundings` (the neighbours and walls near one agent), `elbow_room` (what they
+//! leave to its body) and `planner`, which chooses between [`mcn`] (the paper's) and the [`baselines`]. [`orca`] holds the
+//! half-planes and linear programs that they share, `plan_all` plans a crowd, `plan_explanation` shows why a velocity was
+//! planned.
 
 pub mod baselines;
+pub(crate) mod elbow_room;
 pub mod mcn;
 pub mod orca;
 pub(crate) mod plan;
@@ -16,6 +18,7 @@ pub(crate) mod planner;
 pub(crate) mod surroundings;
 pub(crate) mod world_view;
 
+pub use elbow_room::{ElbowRoom, RoomSide};
 pub use plan::{PLANTED_CONTACT, Plan, Stance, StanceFoot, VelocitySet};
 pub use plan_all::{CrowdPlanningMemory, plan_all};
 pub use plan_explanation::PlanExplanation;

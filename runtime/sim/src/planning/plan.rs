@@ -6,6 +6,8 @@
 use glam::{Vec2, Vec3};
 use motiondb::quality::planted_feet;
 
+use crate::planning::elbow_room::ElbowRoom;
+
 /// Blended contact Σ w·c from which a foot is planted.
 pub const PLANTED_CONTACT: f32 = planted_feet::PLANTED_CONTACT as f32;
 
@@ -86,4 +88,6 @@ pub struct Plan {
     /// Distances of what is nearest on the left and on the right of an agent that passes a narrow gap, m; none in the
     /// open, and of planners that do not measure it.
     pub gap_m: Option<[f32; 2]>,
+    /// How far the body may reach to each side, world axes, m.
+    pub room: ElbowRoom,
 }

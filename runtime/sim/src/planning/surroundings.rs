@@ -2,10 +2,12 @@
 
 use glam::Vec2;
 
+use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::world_view::WorldView;
 use crate::world::disc::Disc;
 use crate::world::neighbours::{NearestNeighbours, Neighbour, NeighbourQuery};
 use crate::world::obstacles::{NearEdge, Obstacles};
+use crate::world::segment::nearest_on_segment;
 use crate::world::time_to_collision::disc_with_segment;
 
 /// The surroundings of one agent. Their memory is kept from agent to agent.
@@ -49,6 +51,17 @@ impl Surroundings {
             .iter()
             .map(|near| disc_with_segment(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m));
         with_agents.chain(with_walls).fold(f32::INFINITY, f32::min)
+    }
+
+    /// The room that walls and neighbours leave to the body of an agent.
+    pub(crate) fn elbow_room(&self, world: &WorldView, agent: usize) -> ElbowRoom {
+        let own_m = world.radii_m[agent];
+        let walls_m = self.edges.iter().map(|near| {
+            let [from_m, to_m] = world.edge_m(agent, near.edge);
+            nearest_on_segment(Vec2::ZERO, from_m, to_m)
+        });
+        let neighbours = self.neighbours.as_slice().iter();
+        ElbowRoom::ending_at(walls_m.chain(neighbours.map(|near| own_m / near.radius_m * near.offset_m)))
     }
 
     /// Bytes that the lists hold on the heap.

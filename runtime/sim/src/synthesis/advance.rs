@@ -24,7 +24,10 @@ impl Body {
     /// Follows a plan over one step as [`advance`](Self::advance) does; where the motion jumps, the extra joints of the
     /// body do not. Their rotations follow with [`pose_extra`](Self::pose_extra).
     pub fn advance_with(&mut self, extra: &mut ExtraState, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
-        let Self { root, actual_mps, command, motion, contact, look_at, lean, secondary, squeeze, weight_shift } = self;
+        self.room = plan.room.seen_from(-self.root.position_m, Vec2::X);
+        let Self {
+            root, actual_mps, command, motion, contact, look_at, lean, secondary, squeeze, weight_shift, ..
+        } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);

@@ -3,11 +3,12 @@
 use glam::Vec2;
 use motiondb::body::{Pose, Root};
 
+use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ExtraState, MotionState};
-use crate::synthesis::pose::{ContactState, Lean, LookAt, SecondaryMotion, Squeeze, WeightShift};
+use crate::synthesis::pose::{BodyClearance, ContactState, Lean, LookAt, SecondaryMotion, Squeeze, WeightShift};
 
 /// A simulated body.
 ///
@@ -55,6 +56,10 @@ pub struct Body {
     pub(crate) lean: Lean,
     /// Turn of the shoulders in a narrow gap.
     pub(crate) squeeze: Squeeze,
+    /// How far it may reach to each side, world frame, m.
+    pub(crate) room: ElbowRoom,
+    /// Turns that keep it within that room.
+    pub(crate) clearance: BodyClearance,
     /// Small motion of head, forearms and hands.
     pub(crate) secondary: SecondaryMotion,
     /// Shift of the weight before a first step.

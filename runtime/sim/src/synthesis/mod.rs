@@ -22,7 +22,8 @@
 //!    chest turn; shoulders turn in gaps; the trunk leans;
 //! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the
 //!     pelvis drops where a leg would not reach;
-//! 11. `ik`: the legs reach their feet.
+//! 11. `ik`: the legs reach their feet;
+//! 12. `body_clearance`: trunk and arms keep within the elbow room that walls and other bodies leave.
 //!
 //! Joints beside the 22 roles have no stage of their own: `extra_state` blends them by the weights of the pose, and
 //! keeps what a switch has left of them.
@@ -46,7 +47,7 @@
 //! `synthesize`, `walk_alone` and `stature` (bodies of other sizes).
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
-//! `LookAt`, `Squeeze`, `Lean`, `SecondaryMotion`, `WeightShift`.
+//! `LookAt`, `Squeeze`, `Lean`, `SecondaryMotion`, `WeightShift`, `ElbowRoom`, `BodyClearance`.
 //!
 //! # Frames and units
 //!

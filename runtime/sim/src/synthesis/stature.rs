@@ -45,13 +45,14 @@ impl Stature {
 
     /// A plan of the crowd's world in the body's.
     pub fn plan_of_body(self, plan: &Plan) -> Plan {
-        let Plan { velocity_mps, time_to_collision_s, strafing_s, stepping_back_s, gap_m, .. } = *plan;
+        let Plan { velocity_mps, time_to_collision_s, strafing_s, stepping_back_s, gap_m, room, .. } = *plan;
         Plan {
             velocity_mps: velocity_mps / self.sqrt_size,
             time_to_collision_s: time_to_collision_s / self.sqrt_size,
             strafing_s: strafing_s / self.sqrt_size,
             stepping_back_s: stepping_back_s / self.sqrt_size,
             gap_m: gap_m.map(|sides_m| sides_m.map(|side_m| side_m / self.size)),
+            room: room.scaled(1.0 / self.size),
             ..*plan
         }
     }

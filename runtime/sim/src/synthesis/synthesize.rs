@@ -6,11 +6,14 @@ use glam::Vec3;
 use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
 
+use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
-use crate::synthesis::pose::{ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift};
+use crate::synthesis::pose::{
+    BodyClearance, ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift,
+};
 use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
@@ -40,6 +43,8 @@ impl Body {
             lean: Lean::default(),
             secondary: SecondaryMotion::default(),
             squeeze: Squeeze::default(),
+            room: ElbowRoom::default(),
+            clearance: BodyClearance::default(),
             weight_shift: WeightShift::default(),
         };
         let output = body.synthesize(context, &TimeStep::new(SETTLING_S));
@@ -48,9 +53,10 @@ impl Body {
 
     /// Poses the body at its present phase and root.
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
-        let Self { root, motion, contact, look_at, lean, secondary, squeeze, weight_shift, .. } = self;
+        let Self { root, motion, contact, look_at, lean, secondary, squeeze, room, clearance, weight_shift, .. } = self;
         // All is done in the frame of the root under the drawn body.
         let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root).frame());
+        let room = room.seen_from(frame.position_m, frame.forward);
         let active = motion.active(context);
         let mut posture = active_posture(motion, &active, context);
         let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
@@ -68,6 +74,7 @@ impl Body {
         };
         contact.lock_feet(&mut posture, &feet, &frame, skeleton, step);
         posture.bend_legs(skeleton);
+        clearance.bring_in(&mut posture.pose, &room, skeleton, step);
         let soles_m = posture.soles_m(skeleton);
         contact.record_drawn(&soles_m, &frame, step);
         motion.has_jumped = false;

@@ -41,6 +41,8 @@ const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
 /// Rate of the filter that turns the shoulders in a gap (`squeeze`), 1/s: four fifths of the turn are made in 0.45 s,
 /// in which a walking body passes the strip of half a metre ahead.
 const SQUEEZE_RATE_HZ: f32 = 10.0;
+/// Rate of the filter by which the upper body keeps clear of walls and bodies (`body_clearance`), 1/s: it lags by 0.1 s.
+const CLEARANCE_RATE_HZ: f32 = 30.0;
 /// Rate of the filter that removes a jump of the phase (`secondary_motion`), 1/s: too slow to show within a stride.
 const SECONDARY_RATE_HZ: f32 = 4.0;
 /// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s. A switch happens at
@@ -87,6 +89,8 @@ pub struct TimeStep {
     pub(crate) lean: SoftSpring,
     /// Filter of the turn of the shoulders.
     pub(crate) squeeze: SoftSpring,
+    /// Filter of the turns that keep the upper body clear.
+    pub(crate) clearance: SoftSpring,
     /// Filter of the phase of secondary motion.
     pub(crate) secondary: SoftSpring,
     /// Filter of the weight shift.
@@ -122,6 +126,7 @@ impl TimeStep {
             look_at: spring(LOOK_AT_RATE_HZ),
             lean: soft_spring(LEAN_RATE_HZ),
             squeeze: soft_spring(SQUEEZE_RATE_HZ),
+            clearance: soft_spring(CLEARANCE_RATE_HZ),
             secondary: soft_spring(SECONDARY_RATE_HZ),
             weight_shift: soft_spring(WEIGHT_SHIFT_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),

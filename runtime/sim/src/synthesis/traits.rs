@@ -5,7 +5,7 @@
 //! - *Arms*: upper arms and forearms swing more or less about their mean in the base walk, each side by itself.
 //! - *Pitch* of trunk and head. The head takes the trunk's pitch back.
 //! - *Secondary motion*: head, forearms and hands of a walking body move a little
-//!   ([`crate::synthesis::pose::secondary_motion`]).
+//!   ([`crate::synthesis::pose::upper_body::secondary_motion`]).
 //! - *First foot*: where both feet stand side by side, one of them makes the first step.
 //!
 //! Lengths in metres, angles in radians; a pitch is positive forward.

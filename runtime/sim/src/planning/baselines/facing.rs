@@ -18,6 +18,7 @@ pub(crate) fn facing_along(velocity_mps: Vec2, world: &WorldView, agent: usize, 
         facing_rad,
         time_to_collision_s: surroundings.time_to_collision_s(world, agent),
         density: density_ahead(ahead, surroundings.neighbours.lanes()),
+        room: surroundings.elbow_room(world, agent),
         ..Plan::default()
     }
 }

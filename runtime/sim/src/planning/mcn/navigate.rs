@@ -64,6 +64,7 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
         strafing_s: orientation.strafing_s,
         stepping_back_s: orientation.stepping_back_s,
         gap_m: gap_m(world, agent, velocity_mps, &memory.surroundings),
+        room: memory.surroundings.elbow_room(world, agent),
     }
 }
 

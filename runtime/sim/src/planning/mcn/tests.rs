@@ -348,3 +348,15 @@ fn without_its_parts_mcn_is_orca() {
         assert!(mcn.distance(orca) < 1e-5, "{mcn} {orca}");
     }
 }
+
+#[test]
+fn walls_and_agents_leave_elbow_room() {
+    let mut scene = Scene::new(&[[0.0, 0.0], [0.6, 0.0], [-0.1, 2.0]]);
+    scene.obstacles =
+        Obstacles::new(&[[[-3.0, -0.9], [3.0, -0.9], [3.0, -0.4], [-3.0, -0.4]].map(Vec2::from).to_vec()]);
+    let room = scene.plan().room;
+    let ends_m = room.sides().iter().map(|side| side.distance_m * side.towards);
+    let expected_m = [Vec2::new(0.0, -0.4), Vec2::new(0.3, 0.0)];
+    assert!(ends_m.clone().count() == 2, "{room:?}");
+    assert!(ends_m.zip(expected_m).all(|(end_m, expected_m)| end_m.distance(expected_m) < 1e-5), "{room:?}");
+}

@@ -12,7 +12,7 @@ use crate::synthesis::library::augmented_database::{augmented, walk};
 use crate::synthesis::library::hybrid_data::HybridData;
 use crate::synthesis::library::starts::Starts;
 use crate::synthesis::pose::LackingMotion;
-use crate::synthesis::pose::squeeze::shoulder_breadth_m;
+use crate::synthesis::pose::upper_body::squeeze::shoulder_breadth_m;
 
 /// A database and what the synthesis derives from it, shared by all bodies.
 ///

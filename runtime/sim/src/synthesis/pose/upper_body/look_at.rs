@@ -16,7 +16,7 @@ use motiondb::body::{Joint, Pose, Skeleton};
 use crate::maths::angle::{unit_vector, wrap_rad, yaw};
 use crate::planning::plan::Plan;
 use crate::synthesis::TimeStep;
-use crate::synthesis::pose::yaw_limit::within_limits_rad;
+use crate::synthesis::pose::upper_body::yaw_limit::within_limits_rad;
 
 /// Greatest look-at angle, rad: in turns by 90° and more the head shows some 45° against the trunk, the eyes the rest.
 const ANGLE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
@@ -74,7 +74,7 @@ mod tests {
     use motiondb::body::JOINT_COUNT;
 
     use super::*;
-    use crate::synthesis::pose::yaw_limit::yaw_rad;
+    use crate::synthesis::pose::upper_body::yaw_limit::yaw_rad;
     use crate::test_db::skeleton;
 
     const STANDING: Pose = Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.92), rotations: [Quat::IDENTITY; JOINT_COUNT] };

@@ -55,21 +55,24 @@ impl Lean {
 
     /// Tilts the trunk of a pose, and keeps the orientation of its head.
     pub(crate) fn tilt(&self, pose: &mut Pose) {
-        let tilt_rad = self.tilt_rad[0];
-        if tilt_rad.length_squared() < UPRIGHT_RAD * UPRIGHT_RAD {
-            return;
-        }
-        let pelvis = pose.rotations[Joint::Pelvis.index()];
-        // z × tilt, in the frame of the pelvis.
-        let tilt = rotation(pelvis.conjugate() * tilt_rad.perp().extend(0.0));
-        let chain =
-            |pose: &Pose| TRUNK.iter().fold(Quat::IDENTITY, |chain, joint| chain * pose.rotations[joint.index()]);
-        let neck = chain(pose);
-        let spine = &mut pose.rotations[TRUNK[0].index()];
-        *spine = tilt * *spine;
-        let head = &mut pose.rotations[Joint::Head.index()];
-        *head = neck.conjugate() * tilt.conjugate() * neck * *head;
+        tilt_trunk(pose, self.tilt_rad[0]);
     }
+}
+
+/// Tilts the trunk of a pose forward and to the left, rad, and keeps the orientation of its head.
+pub(crate) fn tilt_trunk(pose: &mut Pose, tilt_rad: Vec2) {
+    if tilt_rad.length_squared() < UPRIGHT_RAD * UPRIGHT_RAD {
+        return;
+    }
+    let pelvis = pose.rotations[Joint::Pelvis.index()];
+    // z × tilt, in the frame of the pelvis.
+    let tilt = rotation(pelvis.conjugate() * tilt_rad.perp().extend(0.0));
+    let chain = |pose: &Pose| TRUNK.iter().fold(Quat::IDENTITY, |chain, joint| chain * pose.rotations[joint.index()]);
+    let neck = chain(pose);
+    let spine = &mut pose.rotations[TRUNK[0].index()];
+    *spine = tilt * *spine;
+    let head = &mut pose.rotations[Joint::Head.index()];
+    *head = neck.conjugate() * tilt.conjugate() * neck * *head;
 }
 
 #[cfg(test)]

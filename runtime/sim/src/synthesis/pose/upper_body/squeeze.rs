@@ -17,7 +17,7 @@ use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
 
 use crate::maths::angle::yaw;
 use crate::synthesis::TimeStep;
-use crate::synthesis::pose::yaw_limit::within_limits_rad;
+use crate::synthesis::pose::upper_body::yaw_limit::within_limits_rad;
 use crate::synthesis::traits::{ARMS, swung};
 
 /// Gap, divided by the breadth of the shoulders, below which shoulders turn.

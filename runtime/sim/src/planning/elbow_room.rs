@@ -1,0 +1,133 @@
+//! Elbow room: how far a body may reach to each side before it meets a wall or the body beside it. `FbCrowd` does not
+//! have it.
+//!
+//! Discs are narrower than shoulders and arms. Each wall near an agent, and each agent near it, leaves the agent a
+//! half-plane of the ground: that before the nearest point of the wall, and its own share of the way to the other
+//! agent. Two bodies that keep to their half-planes do not meet.
+//!
+//! The planner finds them; the synthesis keeps the upper body within them (`body_clearance`). World axes, relative to the
+//! agent's centre, metres.
+
+use glam::Vec2;
+
+/// Most sides that count.
+const SIDES_MAX: usize = 8;
+/// Distance beyond which a side does not count, m: what an arm reaches that hangs or swings.
+const REACH_M: f32 = 0.5;
+
+/// The sides of an agent that something stands at, the nearest eight, in no order.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElbowRoom {
+    sides: [RoomSide; SIDES_MAX],
+    count: usize,
+}
+
+/// One side: the agent's half-plane ends at `distance_m` in the direction `towards`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RoomSide {
+    /// Unit vector to what stands there.
+    pub towards: Vec2,
+    /// Distance of the half-plane's border from the agent's centre, m.
+    pub distance_m: f32,
+}
+
+impl RoomSide {
+    /// Overlap with the border from which on a body yields by the whole of it, m. It begins to yield as far before the
+    /// border, so that it moves without a jerk.
+    const SOFT_M: f32 = 0.06;
+
+    /// Distance by which a point with a radius should come in, m.
+    pub(crate) fn yielded_m(&self, point_m: Vec2, radius_m: f32) -> f32 {
+        let over_m = self.towards.dot(point_m) + radius_m - self.distance_m;
+        let begun_m = (over_m + Self::SOFT_M).clamp(0.0, 2.0 * Self::SOFT_M);
+        begun_m * begun_m / (4.0 * Self::SOFT_M) + (over_m - Self::SOFT_M).max(0.0)
+    }
+}
+
+impl ElbowRoom {
+    /// The room whose sides end at points, relative to the agent's centre, world axes, m.
+    pub fn ending_at(points_m: impl IntoIterator<Item = Vec2>) -> Self {
+        let mut room = Self::default();
+        points_m.into_iter().for_each(|point_m| room.end_at(point_m));
+        room
+    }
+
+    /// The sides.
+    pub fn sides(&self) -> &[RoomSide] {
+        &self.sides[..self.count]
+    }
+
+    /// Adds the side that ends at a point; of more than [`SIDES_MAX`] the farthest is left out.
+    fn end_at(&mut self, point_m: Vec2) {
+        let (towards, distance_m) = point_m.normalize_and_length();
+        if distance_m > REACH_M {
+            return;
+        }
+        if self.count < SIDES_MAX {
+            self.sides[self.count] = RoomSide { towards, distance_m };
+            self.count += 1;
+        } else if let Some(farthest) = self.sides.iter_mut().max_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
+            && distance_m < farthest.distance_m
+        {
+            *farthest = RoomSide { towards, distance_m };
+        }
+    }
+
+    /// The same in a frame at `origin_m` whose x axis is `forward`.
+    pub(crate) fn seen_from(mut self, origin_m: Vec2, forward: Vec2) -> Self {
+        let back = Vec2::new(forward.x, -forward.y);
+        for RoomSide { towards, distance_m } in &mut self.sides[..self.count] {
+            *distance_m -= towards.dot(origin_m);
+            *towards = back.rotate(*towards);
+        }
+        self
+    }
+
+    /// The same of a body `factor` times as large.
+    pub(crate) fn scaled(mut self, factor: f32) -> Self {
+        self.sides[..self.count].iter_mut().for_each(|side| side.distance_m *= factor);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A room with a side at each distance along +x, m.
+    fn room(distances_m: impl IntoIterator<Item = f32>) -> ElbowRoom {
+        ElbowRoom::ending_at(distances_m.into_iter().map(|distance_m| distance_m * Vec2::X))
+    }
+
+    #[test]
+    fn the_nearest_eight_within_reach_are_sides() {
+        let room = room([0.6, 0.5, 0.1, 0.2, 0.3, 0.4, 0.15, 0.25, 0.35, 0.05]);
+        let mut distances_m: Vec<f32> = room.sides().iter().map(|side| side.distance_m).collect();
+        distances_m.sort_by(f32::total_cmp);
+        assert_eq!(distances_m, [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]);
+    }
+
+    #[test]
+    fn a_body_yields_gradually_by_the_whole_overlap() {
+        let yielded_m = |over_m: f32| room([0.3]).sides()[0].yielded_m(Vec2::new(0.25 + over_m, 1.0), 0.05);
+        let soft_m = RoomSide::SOFT_M;
+        assert_eq!(yielded_m(-soft_m), 0.0);
+        assert!([1.0, 2.0].into_iter().all(|over| (yielded_m(over * soft_m) - over * soft_m).abs() < 1e-6));
+        let slopes: Vec<f32> = (-12..24)
+            .map(|step| 0.1 * soft_m * step as f32)
+            .map(|over_m| (yielded_m(over_m + 1e-3) - yielded_m(over_m)) / 1e-3)
+            .collect();
+        assert!(slopes.is_sorted_by(|a, b| (-1e-3..0.1).contains(&(b - a))), "{slopes:?}");
+    }
+
+    #[test]
+    fn borders_stay_where_they_are_in_other_frames() {
+        let (room, point_m) = (room([0.3]), Vec2::new(0.2, 0.1));
+        let [origin_m, forward] = [Vec2::new(-0.4, 0.7), Vec2::new(0.6, 0.8)];
+        let seen_m = Vec2::new(forward.x, -forward.y).rotate(point_m - origin_m);
+        let yielded_m = |room: &ElbowRoom, point_m: Vec2| room.sides()[0].yielded_m(point_m, 0.2);
+        let seen = room.seen_from(origin_m, forward);
+        assert!((yielded_m(&seen, seen_m) - yielded_m(&room, point_m)).abs() < 1e-6);
+        assert!((room.scaled(2.0).sides()[0].distance_m - 0.6).abs() < 1e-6);
+    }
+}
