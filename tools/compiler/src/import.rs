@@ -14,7 +14,7 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Note, Warning};
+use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
@@ -217,8 +217,10 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
     let jumps = pose_jumps::pose_jumps(&clip, &roles);
-    let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
-    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps);
+    // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
+    let is_explained = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })))
+        || matches!(unfit, Some(Unfit::InhumanGait { .. }));
+    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !is_explained);
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };

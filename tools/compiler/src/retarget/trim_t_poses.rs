@@ -20,6 +20,8 @@ use crate::rig::roles::Roles;
 const JUMP_OVER_MEDIAN: f64 = 8.0;
 /// Size of a jump beyond [`JUMP_OVER_MEDIAN`] times the median step, m.
 const JUMP_MIN_M: f64 = 0.05;
+/// Least size of a jump, divided by the step after it: a pose that blends into the motion moves on.
+const JUMP_OVER_NEXT: f64 = 3.0;
 /// Least number of frames of a clip whose poses are removed: shorter clips have no meaningful median.
 const FRAMES_MIN: usize = 11;
 /// Least cosine between arms and shoulder line in a T-pose (30°).
@@ -37,7 +39,8 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let joints = role_joints(roles);
     let mut steps_m: Vec<f64> = (1..clip.frame_count()).map(|frame| pose_step_m(clip, roles, &joints, frame)).collect();
     let first_m = steps_m.remove(0);
-    let jumps = first_m > JUMP_OVER_MEDIAN * upper_median(steps_m) + JUMP_MIN_M;
+    let next_m = steps_m[0];
+    let jumps = first_m > (JUMP_OVER_MEDIAN * upper_median(steps_m) + JUMP_MIN_M).max(JUMP_OVER_NEXT * next_m);
     let drops_arms = spread_cosine(clip, roles, 0) > SPREAD_COSINE && spread_cosine(clip, roles, 1) < LOWERED_COSINE;
     if jumps || drops_arms {
         clip.keep_frames(1..clip.frame_count());
