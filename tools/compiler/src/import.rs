@@ -217,10 +217,13 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
     let jumps = pose_jumps::pose_jumps(&clip, &roles);
+    let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
+    let is_frame_time_wrong = matches!(unfit, Some(Unfit::InhumanGait { .. }));
+    if is_frame_time_wrong {
+        units::drop_doubt_of_cadence(&mut clip, &roles, units.metres_per_unit);
+    }
     // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
-    let is_explained = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })))
-        || matches!(unfit, Some(Unfit::InhumanGait { .. }));
-    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !is_explained);
+    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };

@@ -21,8 +21,9 @@ use motiondb_compiler::import_bytes;
 use zoo::combination::{Combination, Dice};
 
 /// Combinations that earlier versions imported wrong: a T-pose that blends into an idle, a wrong frame time that moved
-/// the unit, or beside which jumps of the pose were reported, a T-pose held before a turn.
-const MENDED: [u64; 9] = [137, 172, 291, 1090, 1219, 2050, 2604, 2706, 3496];
+/// the unit, or beside which doubts of the unit and jumps of the pose were reported, a short ramp, a T-pose held before a
+/// turn.
+const MENDED: [u64; 13] = [137, 172, 291, 423, 838, 849, 1090, 1219, 1305, 2050, 2604, 2706, 3496];
 
 fn check_all(seeds: impl ExactSizeIterator<Item = u64>) {
     let mut failures: Vec<String> = Vec::new();

@@ -92,18 +92,21 @@ impl GroundCheck<'_> {
 
     /// Ground that rises or falls.
     fn slope(&self) -> Option<Warning> {
-        let rise_m = self.rise_m();
-        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MIN * self.path_m();
+        let count = self.clip.frame_count();
+        let span = ((STANCE_SPAN_S * self.clip.frame_rate_hz) as usize).clamp(1, count);
+        let rise_m = self.rise_m(span);
+        // Both heights are those of the lower end of their span: the body rose over the path between two such ends.
+        let risen_share = (count - span) as f64 / count as f64;
+        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MIN * risen_share * self.path_m();
         if is_level || self.steps == 0 {
             return None;
         }
-        Some(Warning::Slope { rise_cm: (100.0 * rise_m / self.steps as f64) as f32 })
+        Some(Warning::Slope { rise_cm: (100.0 * rise_m / (risen_share * self.steps as f64)) as f32 })
     }
 
-    /// Height of the lower foot at the clip's end minus its height at the beginning, m.
-    fn rise_m(&self) -> f64 {
+    /// Height of the lower foot over the last `span` frames minus its height over the first ones, m.
+    fn rise_m(&self, span: usize) -> f64 {
         let count = self.clip.frame_count();
-        let span = ((STANCE_SPAN_S * self.clip.frame_rate_hz) as usize).clamp(1, count);
         let lowest_m = |frames: Range<usize>| {
             let heights = frames.flat_map(|frame| [0, 1].map(|side| self.ankle_height_m(frame, side)));
             heights.fold(f64::INFINITY, f64::min)

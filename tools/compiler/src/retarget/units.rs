@@ -32,8 +32,9 @@ const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
 const CADENCE_MISFIT_MAX: f64 = 0.4;
 /// Gravity, m/s².
 const GRAVITY_MPS2: f64 = 9.81;
-/// Difference of misfits below which the second unit may be the right one: that of legs 1.35 times as long.
-const NEAR_MISFIT: f64 = 0.3;
+/// Difference of misfits below which the second unit may be the right one: that of legs 1.34 times as long. Legs of an
+/// adult of 2 m in decimetres are no doubt.
+const NEAR_MISFIT: f64 = 0.29;
 
 /// Share of the frames in which feet and shoulders are nearer than those that stand.
 const LONGEST_PERCENTILE: f64 = 0.9;
@@ -75,6 +76,15 @@ fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
         clip.diagnostics.push(Diagnostic::Warning(Warning::UnitDoubtful { leg_m, other_leg_m, other_unit_m }));
     }
     best.unit_m
+}
+
+/// Removes the doubt about the unit of a clip in metres whose frame time is wrong, unless its legs alone give one: the
+/// cadence says nothing of the unit then.
+pub(crate) fn drop_doubt_of_cadence(clip: &mut SourceClip, roles: &Roles, metres_per_unit: f64) {
+    let [best, second] = likeliest_units(leg_length(clip, roles) / metres_per_unit, None);
+    if second.misfit - best.misfit >= NEAR_MISFIT {
+        clip.diagnostics.retain(|found| !matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. })));
+    }
 }
 
 /// Strides per second; none of a clip of fewer than three steps.
