@@ -46,10 +46,10 @@ fn check_rejected(text: &str, expected: &RejectionReason) {
 
 #[test]
 fn bodies_not_carried_by_level_ground_are_reported() {
-    // 12 cm for each step of 60 cm, up and down. A short clip shows only a part of it.
+    // 12 cm for each step of 60 cm, up and down; over a step and a quarter, feet show it roughly.
     for sign in [1.0, -1.0] {
         let slope = warning(&rows(|frame, row| row[1] += 0.8 * sign * frame as f64));
-        let is_steep = |rise_cm: f32| (5.0..=12.0).contains(&(rise_cm * sign as f32));
+        let is_steep = |rise_cm: f32| (rise_cm * sign as f32 - 12.0).abs() < 3.0;
         assert!(matches!(slope, Warning::Slope { rise_cm } if is_steep(rise_cm)), "{slope:?}");
     }
     let still = |row: &mut Vec<f64>| row[3..].fill(0.0);
