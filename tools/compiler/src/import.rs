@@ -6,7 +6,8 @@
 //! 3. roles of joints ([`crate::rig`]) in a few frames → `SourceClip`: all frames of the joints that have roles; the
 //!    stated facing (`stated_facing`)
 //! 4. metres, z up ([`crate::retarget::units`])
-//! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses
+//! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
+//!    ends
 //! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
 //! 7. parts that are not upright (`posture`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
@@ -274,6 +275,7 @@ fn parameters_of_trimmed(clip: &mut SourceClip, roles: &Roles, settings: &ClipSe
     let parameters = source_parameters(clip, roles);
     if !is_cut {
         trim_t_poses::drop_t_poses(clip, roles);
+        trim_t_poses::drop_held_ends(clip, roles);
     }
     parameters
 }
