@@ -21,6 +21,14 @@ fn notes() -> Vec<(Note, &'static str)> {
         (Note::FirstPoseCut, "the first frame is a separate pose and is not used"),
         (Note::TPoseCut { frames: 40, end: first }, "the clip begins with 40 frames of T-pose, which are not used"),
         (Note::TPoseCut { frames: 12, end: last }, "the clip ends with 12 frames of T-pose, which are not used"),
+        (
+            Note::HeldPoseCut { frames: 90, end: first },
+            "the clip begins with 90 frames of a frozen pose, which are not used",
+        ),
+        (
+            Note::HeldPoseCut { frames: 30, end: last },
+            "the clip ends with 30 frames of a frozen pose, which are not used",
+        ),
         (Note::TextAfterMotion { line: 90 }, "line 90: the text after the motion is not used"),
         (Note::LastRowIncomplete { line: 90 }, "line 90: the last row is cut short and is not used"),
         (
@@ -345,6 +353,7 @@ const NUMBERED: [&[&str]; 3] = [
         "added_to_style",
         "corners_unused",
         "joints_left_out",
+        "held_pose_cut",
     ],
     &[
         "inhuman_size",

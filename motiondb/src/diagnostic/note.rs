@@ -128,6 +128,13 @@ pub enum Note {
         /// Number of joints that are kept beside the roles.
         kept: u32,
     },
+    /// Frames at one end in which nothing moves are cut off.
+    HeldPoseCut {
+        /// Number of frames that are cut off.
+        frames: u32,
+        /// Whether the frames are at the beginning or at the end.
+        end: ClipEnd,
+    },
 }
 
 impl Note {
@@ -152,6 +159,7 @@ impl Note {
             Self::AddedToStyle { .. } => "added_to_style",
             Self::CornersUnused { .. } => "corners_unused",
             Self::JointsLeftOut { .. } => "joints_left_out",
+            Self::HeldPoseCut { .. } => "held_pose_cut",
         }
     }
 }
@@ -165,6 +173,12 @@ impl fmt::Display for Note {
             }
             Self::TPoseCut { frames, end: ClipEnd::Last } => {
                 write!(out, "the clip ends with {frames} frames of T-pose, which are not used")
+            }
+            Self::HeldPoseCut { frames, end: ClipEnd::First } => {
+                write!(out, "the clip begins with {frames} frames of a frozen pose, which are not used")
+            }
+            Self::HeldPoseCut { frames, end: ClipEnd::Last } => {
+                write!(out, "the clip ends with {frames} frames of a frozen pose, which are not used")
             }
             Self::TextAfterMotion { line } => write!(out, "line {line}: the text after the motion is not used"),
             Self::LastRowIncomplete { line } => write!(out, "line {line}: the last row is cut short and is not used"),

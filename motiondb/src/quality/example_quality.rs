@@ -57,6 +57,11 @@ pub struct ExampleQuality {
     pub range_excess_joint: &'static str,
 }
 
+/// The gait of a body that steps at a speed over the ground, and the usual planted share in it, from and to.
+pub fn usual_planted_share(speed_mps: f32) -> (&'static str, [f32; 2]) {
+    if speed_mps < RUN_MPS { ("walking", WALKING_SHARE) } else { ("running", RUNNING_SHARE) }
+}
+
 /// Least suspect slide of planted feet, cm/s, at a body's speed over the ground.
 pub fn suspect_slide_cm_s(speed_mps: f32) -> f32 {
     SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps
@@ -143,8 +148,7 @@ fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [FigureLim
     let body_mps = libm::hypotf(speed_mps, strafe_mps);
     let (gait, [least, most]) = match example.key_times_s {
         None => ("standing", STANDING_SHARE),
-        Some(_) if body_mps < RUN_MPS => ("walking", WALKING_SHARE),
-        Some(_) => ("running", RUNNING_SHARE),
+        Some(_) => usual_planted_share(body_mps),
     };
     let slide_max_cm_s = suspect_slide_cm_s(body_mps);
     let (slide_cm_s, share) = (found.planted_slide_cm_s, found.planted_share);

@@ -6,7 +6,8 @@
 //! 3. roles of joints ([`crate::rig`]) in a few frames → `SourceClip`: all frames of the joints that have roles; the
 //!    stated facing (`stated_facing`)
 //! 4. metres, z up ([`crate::retarget::units`])
-//! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses
+//! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
+//!    ends
 //! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
 //! 7. parts that are not upright (`posture`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
@@ -14,7 +15,7 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
-use motiondb::diagnostic::{Diagnostic, Note, Warning};
+use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
@@ -218,7 +219,12 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
     let jumps = pose_jumps::pose_jumps(&clip, &roles);
     let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
-    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps);
+    let is_frame_time_wrong = matches!(unfit, Some(Unfit::InhumanGait { .. }));
+    if is_frame_time_wrong {
+        units::drop_doubt_of_cadence(&mut clip, &roles, units.metres_per_unit);
+    }
+    // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
+    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
@@ -269,6 +275,7 @@ fn parameters_of_trimmed(clip: &mut SourceClip, roles: &Roles, settings: &ClipSe
     let parameters = source_parameters(clip, roles);
     if !is_cut {
         trim_t_poses::drop_t_poses(clip, roles);
+        trim_t_poses::drop_held_ends(clip, roles);
     }
     parameters
 }

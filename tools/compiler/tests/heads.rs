@@ -14,7 +14,7 @@ use glam::{DQuat, DVec3, Vec3};
 use motiondb::body::Joint;
 use motiondb::motion::{MotionDb, PHASE_COUNT};
 use motiondb_compiler::{HumanClip, Options, compile, import_bytes};
-use zoo::body::{Performance, part};
+use zoo::body::{Performance, Pose, part};
 use zoo::file::{self, File};
 use zoo::names::tools;
 use zoo::rig::{self, Rest};
@@ -28,13 +28,22 @@ const TOLERANCE_DEG: f32 = 3.0;
 fn imported(clip: &str, down_rad: f64, rig_turn: DQuat) -> HumanClip {
     let mut body = Performance::read(clip);
     for pose in &mut body.poses {
-        let facing = pose.turns[0] * DVec3::Z;
-        let across = DVec3::Y.cross(facing.with_y(0.0)).normalize();
+        let across = across(pose);
         let head = &mut pose.turns[part("Head")];
         *head = DQuat::from_axis_angle(across, down_rad) * *head * rig_turn;
     }
-    let rig = rig::build(&body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
-    let text = file::write(&body, &rig, &File::plain(100.0, 1.0));
+    written(clip, &body)
+}
+
+/// The left of a body that is upright.
+fn across(pose: &Pose) -> DVec3 {
+    DVec3::Y.cross((pose.turns[0] * DVec3::Z).with_y(0.0)).normalize()
+}
+
+/// The clip that a file of this performance gives.
+fn written(clip: &str, body: &Performance) -> HumanClip {
+    let rig = rig::build(body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
+    let text = file::write(body, &rig, &File::plain(100.0, 1.0));
     import_bytes(Path::new(&format!("{clip}.bvh")), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
 }
 
@@ -80,4 +89,25 @@ fn a_clip_alone_has_a_level_head() {
         pitch_deg(&compile(vec![clip], &Options::default(), &|_| ()).unwrap(), "walk_110")
     };
     assert!((level(0.0) - level(25.0)).abs() < 0.5);
+}
+
+#[test]
+fn a_body_that_lies_bends_no_head_of_its_walk() {
+    let pitch_of = |body: &Performance| {
+        let clip = written("walk_110", body);
+        pitch_deg(&compile(vec![clip], &Options::default(), &|_| ()).unwrap(), "walk_110")
+    };
+    let walk = Performance::read("walk_110");
+    for down_deg in [-90.0_f64, 90.0] {
+        let mut lies = walk.clone();
+        lies.poses.truncate(walk.poses.len() / 2);
+        for pose in &mut lies.poses {
+            let turn = DQuat::from_axis_angle(across(pose), down_deg.to_radians());
+            pose.hips_m.y = 0.15;
+            pose.turns = pose.turns.map(|part| turn * part);
+        }
+        lies.poses.splice(0..0, walk.poses.iter().cloned());
+        let bend_deg = pitch_of(&lies) - pitch_of(&walk);
+        assert!(bend_deg.abs() < TOLERANCE_DEG, "{down_deg}: {bend_deg}°");
+    }
 }

@@ -51,7 +51,7 @@ const TURN_MIN_S: f64 = 1.0;
 /// The warning about what moves the body if not its feet on level ground; `None` if the feet do.
 pub(crate) fn warning(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Option<Warning> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
-    let steps = foot_passings(clip, roles, LEAD_MIN_M * scale).len();
+    let steps = foot_passings(clip, roles, LEAD_MIN_M * scale);
     let check = GroundCheck { clip, roles, parameters, scale, steps };
     let travels = || if parameters.is_in_place { None } else { check.slope().or_else(|| check.skating()) };
     check.leap().or_else(travels).or_else(|| check.turn_without_step()).or_else(|| check.jump())
@@ -64,8 +64,8 @@ struct GroundCheck<'a> {
     parameters: &'a SourceParameters,
     /// Leg length, divided by a person's.
     scale: f64,
-    /// Number of times that one foot passes the other.
-    steps: usize,
+    /// Frames in which one foot passes the other.
+    steps: Vec<usize>,
 }
 
 impl GroundCheck<'_> {
@@ -92,18 +92,27 @@ impl GroundCheck<'_> {
 
     /// Ground that rises or falls.
     fn slope(&self) -> Option<Warning> {
-        let rise_m = self.rise_m();
-        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MIN * self.path_m();
-        if is_level || self.steps == 0 {
-            return None;
-        }
-        Some(Warning::Slope { rise_cm: (100.0 * rise_m / self.steps as f64) as f32 })
-    }
-
-    /// Height of the lower foot at the clip's end minus its height at the beginning, m.
-    fn rise_m(&self) -> f64 {
         let count = self.clip.frame_count();
         let span = ((STANCE_SPAN_S * self.clip.frame_rate_hz) as usize).clamp(1, count);
+        let rise_m = self.rise_m(span);
+        // Both heights are those of the lower end of their span: the body rose over the path between two such ends.
+        let risen_frames = (count - span) as f64;
+        let path_m = self.path_m() * risen_frames / count as f64;
+        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MIN * path_m;
+        if is_level {
+            return None;
+        }
+        let step_share = match self.steps[..] {
+            [] => return None,
+            [_] => 1.0,
+            [first, .., last] => (last - first) as f64 / ((self.steps.len() - 1) as f64 * risen_frames),
+        };
+        Some(Warning::Slope { rise_cm: (100.0 * step_share * rise_m) as f32 })
+    }
+
+    /// Height of the lower foot over the last `span` frames minus its height over the first ones, m.
+    fn rise_m(&self, span: usize) -> f64 {
+        let count = self.clip.frame_count();
         let lowest_m = |frames: Range<usize>| {
             let heights = frames.flat_map(|frame| [0, 1].map(|side| self.ankle_height_m(frame, side)));
             heights.fold(f64::INFINITY, f64::min)
@@ -129,7 +138,7 @@ impl GroundCheck<'_> {
             return None;
         }
         let [slide_mps, body_mps] = [slide, travel].map(|velocity| velocity.length() as f32);
-        Some(Warning::Skating { body_mps, slide_mps, steps: self.steps > 0 })
+        Some(Warning::Skating { body_mps, slide_mps, steps: !self.steps.is_empty() })
     }
 
     fn turn_without_step(&self) -> Option<Warning> {
@@ -155,7 +164,7 @@ impl GroundCheck<'_> {
         let lift_m = |frame: usize, side: usize| self.ankle_height_m(frame, side) - standing_m[side];
         let lower_m = |frame: usize| lift_m(frame, 0).min(lift_m(frame, 1));
         let highest_m = frames.clone().map(lower_m).fold(0.0, f64::max);
-        (self.steps == 0 && highest_m > JUMP_LIFT_MIN_M * self.scale)
+        (self.steps.is_empty() && highest_m > JUMP_LIFT_MIN_M * self.scale)
             .then_some(Warning::Jump { lift_cm: (100.0 * highest_m) as f32 })
     }
 }

@@ -13,8 +13,6 @@ use crate::cycle::gait_cycle::GaitCycle;
 use crate::ground::root_arc::Rates;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
-/// Share of the cycle below which a planted foot is suspect; sprinters' feet are planted for 0.22.
-const SUSPECT_SHARE: f64 = 0.2;
 /// Slide above which a cycle shows no stance, cm/s on the performer: blended into a crowd it drags all feet. Noisy
 /// captures reach 18.
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
@@ -54,7 +52,7 @@ pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
 /// does not depend on the other clips of the set.
 pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide: &FootSlide) -> Option<Unfit> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
-    let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
+    let speed_cm_s = 100.0 * speed_mps(&cycle.rates);
     if planted_share < NO_STANCE_SHARE {
         return Some(Unfit::FeetHardlyPlanted { planted_share: planted_share as f32 });
     }
@@ -67,16 +65,22 @@ pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide
 /// Warnings for a cycle whose feet slide or are hardly planted.
 pub(crate) fn foot_warnings(rates: &Rates, slide: &FootSlide) -> Vec<Diagnostic> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
+    let (_, [least_share, _]) = example_quality::usual_planted_share(speed_mps(rates) as f32);
     let slides = Warning::FeetSlide { slide_cm_s: slide_cm_s as f32, from_s: None };
     let hardly_planted = Warning::FeetHardlyPlanted { planted_share: planted_share as f32, from_s: None };
-    let found = [(relative_slide(rates, slide) > 1.0, slides), (planted_share < SUSPECT_SHARE, hardly_planted)];
+    let found =
+        [(relative_slide(rates, slide) > 1.0, slides), (planted_share < f64::from(least_share), hardly_planted)];
     found.into_iter().filter(|(is_so, _)| *is_so).map(|(_, warning)| Diagnostic::Warning(warning)).collect()
 }
 
 /// Slide, divided by the least suspect slide at this speed.
 pub(crate) fn relative_slide(rates: &Rates, slide: &FootSlide) -> f64 {
-    let speed_mps = libm::hypot(rates.speed_mps, rates.strafe_mps);
-    slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps as f32))
+    slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps(rates) as f32))
+}
+
+/// Speed of the body over the ground, m/s.
+fn speed_mps(rates: &Rates) -> f64 {
+    libm::hypot(rates.speed_mps, rates.strafe_mps)
 }
 
 #[cfg(test)]
@@ -98,6 +102,13 @@ mod tests {
         let mut cycle = cycle_of(&clip);
         cycle.rates.speed_mps += 0.1;
         assert!((foot_slide(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn a_walk_needs_more_stance_than_a_run() {
+        let slide = FootSlide { slide_cm_s: 2.0, planted_share: 0.25 };
+        let warnings = |speed_mps: f64| foot_warnings(&Rates { speed_mps, ..Rates::default() }, &slide).len();
+        assert_eq!([1.2, 4.0].map(warnings), [1, 0]);
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub fn mean_stride(
     let contacts = depths_s.iter().map(|depths_s| depths_s.map(contact)).collect();
     let mut cycle = GaitCycle { rows, contacts, phase_map, rates, steps: true };
     lower_to_mean_ground(&mut cycle, body);
-    foot_grounding::keep_soles_above_ground(&mut cycle.rows, body);
+    foot_grounding::keep_soles_above_ground(&mut cycle.rows, body, PHASE_COUNT as f64 / period_s, true);
     cycle
 }
 

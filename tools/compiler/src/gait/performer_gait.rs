@@ -52,7 +52,8 @@ impl PerformerGait {
             foot_grounding::shift_to_ground(poses, body, |side, frame| {
                 foot_stance::stands_at(&stances[side], (first_frame + frame) as f64)
             });
-            foot_grounding::keep_soles_above_ground(poses, body);
+            let is_loop = self.loop_frames.is_some();
+            foot_grounding::keep_soles_above_ground(poses, body, grounded.frame_rate_hz, is_loop);
         }
         match self.loop_frames {
             Some(round) => loop_unrolling::repeated(grounded, body, round),

@@ -14,8 +14,8 @@ use motiondb::body::Side;
 use crate::gait::body_track::BodyTrack;
 use crate::ground::root_arc::{RootArc, RootSample};
 
-/// Period of a stride, s: sprints 0.45 s, the slowest shuffles 2.2 s.
-const PERIOD_S: RangeInclusive<f64> = 0.4..=2.5;
+/// Period of a stride, s: sprints 0.45, captured shuffles 2.2, sneaking and drawn-out styles up to 4.
+const PERIOD_S: RangeInclusive<f64> = 0.4..=4.2;
 /// Share of the period from the first landmark to the second; real clips have 0.40–0.60.
 const HALF_SHARE: RangeInclusive<f64> = 0.32..=0.68;
 /// Greatest share of a stride with both feet on the ground; more means a stop. Very slow walking: 0.36 (Schwartz et al.

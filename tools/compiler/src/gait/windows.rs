@@ -335,6 +335,20 @@ mod tests {
     }
 
     #[test]
+    fn slow_walks_have_strides() {
+        let rates = Rates { speed_mps: 0.6, ..Rates::default() };
+        let mut clip = synthetic::walk("walk", SyntheticWalk { rates, ..SyntheticWalk::default() });
+        clip.frame_rate_hz /= 3.5;
+        let periods_s =
+            synthetic::strides_of(&clip).into_iter().map(|stride| stride.period_frames / clip.frame_rate_hz);
+        let periods_s: Vec<f64> = periods_s.collect();
+        assert!(
+            !periods_s.is_empty() && periods_s.iter().all(|period_s| (period_s - 3.85).abs() < 0.1),
+            "{periods_s:?}"
+        );
+    }
+
+    #[test]
     fn contacts_cut_by_the_clip_still_mark_a_stride() {
         // The second right contact is cut after 64 % of it.
         assert_eq!(strides(SyntheticWalk { duration_s: 1.6, ..SyntheticWalk::default() }).len(), 1);

@@ -4,11 +4,13 @@
 //! rig cannot bend its toes, pushes its toes through the ground at push-off, where human toes bend. So three
 //! corrections follow for each foot of each pose:
 //! 1. The ankle rises until heel and ball are on the ground; the knee bends.
-//! 2. The toes bend up until their tip is on the ground.
+//! 2. The toes bend up until their tip is on the ground. They begin before they must and straighten gradually after
+//!    toe-off: else a pose whose toes bend by 50° is followed by one whose toes are straight.
 //! 3. If the toes cannot bend so far, the ankle rises by the remaining depth.
 //!
 //! World frame: Z up, metres, radians.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
@@ -22,6 +24,10 @@ use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 const SOLE_DEPTH_MAX_M: f64 = 0.01;
 /// Greatest bend of the toes upward, rad: 60°, published range of the first metatarsophalangeal joint: 60–70°.
 const TOE_BEND_MAX_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
+
+/// Duration in which toes bend before they must, and straighten after they may, s: about that from toe-off to straight
+/// toes in people.
+const TOE_BEND_S: f64 = 0.08;
 
 /// Indices of heel and ball in `sole_points_m` (heel, ball, toe tip).
 const HEEL_AND_BALL: Range<usize> = 0..2;
@@ -45,20 +51,48 @@ pub(crate) fn shift_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_plan
     poses.iter_mut().for_each(|pose| pose.pelvis_m.z -= ground_m);
 }
 
-/// Corrects heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`].
-pub(crate) fn keep_soles_above_ground(poses: &mut [HumanPose], body: &HumanBody) {
-    for pose in poses {
-        // Most poses need no correction, and one pose of the joints shows it.
+/// Corrects heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`], in poses at `rate_hz`. The first pose
+/// of a cycle follows the last.
+pub(crate) fn keep_soles_above_ground(poses: &mut [HumanPose], body: &HumanBody, rate_hz: f64, is_cycle: bool) {
+    // Most poses need no correction, and one pose of the joints shows it.
+    let sinks = |pose: &HumanPose| {
         let joints = pose.forward_kinematics(body);
-        if (0..2).all(|side| lowest_sole_m(&joints, body, side) >= -SOLE_DEPTH_MAX_M) {
-            continue;
+        (0..2).any(|side| lowest_sole_m(&joints, body, side) < -SOLE_DEPTH_MAX_M)
+    };
+    let sunk: Vec<usize> = (0..poses.len()).filter(|&index| sinks(&poses[index])).collect();
+    for side in 0..2 {
+        for &index in &sunk {
+            raise_foot(&mut poses[index], body, side, HEEL_AND_BALL);
         }
-        for side in 0..2 {
-            raise_foot(pose, body, side, HEEL_AND_BALL);
-            bend_toes(pose, body, side);
-            raise_foot(pose, body, side, WHOLE_SOLE);
+        let bends_rad: Vec<(usize, f64)> =
+            sunk.iter().map(|&index| (index, toe_bend_rad(&poses[index], body, side))).collect();
+        for (index, bend_rad) in gradual_bends_rad(&bends_rad, poses.len(), rate_hz, is_cycle) {
+            let toe = &mut poses[index].rotations[Joint::TOES[side].index()];
+            *toe = DQuat::from_rotation_y(bend_rad) * *toe;
+        }
+        for &index in &sunk {
+            raise_foot(&mut poses[index], body, side, WHOLE_SOLE);
         }
     }
+}
+
+/// Bends of toes by pose, rad: the given ones, each approached and left within [`TOE_BEND_S`].
+fn gradual_bends_rad(bends_rad: &[(usize, f64)], count: usize, rate_hz: f64, is_cycle: bool) -> BTreeMap<usize, f64> {
+    let span = TOE_BEND_S * rate_hz;
+    let mut gradual = BTreeMap::new();
+    for &(index, bend_rad) in bends_rad.iter().filter(|(_, bend_rad)| *bend_rad < 0.0) {
+        let reach = (span as usize).min(count / 2) as isize;
+        for step in -reach..=reach {
+            let at = index as isize + step;
+            let at = if is_cycle { at.rem_euclid(count as isize) } else { at };
+            if (0..count as isize).contains(&at) {
+                let share = 0.5 + 0.5 * libm::cos(std::f64::consts::PI * step as f64 / span);
+                let bend = gradual.entry(at as usize).or_insert(0.0_f64);
+                *bend = bend.min(share * bend_rad);
+            }
+        }
+    }
+    gradual
 }
 
 /// Raises an ankle until none of the given sole points, by index, lies too deep.
@@ -72,16 +106,16 @@ fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, points: Range
     }
 }
 
-/// Bends the toes of one foot up until their tip does not lie too deep.
-fn bend_toes(pose: &mut HumanPose, body: &HumanBody, side: usize) {
+/// Angle by which the toes of one foot bend up until their tip does not lie too deep, rad; negative is up.
+fn toe_bend_rad(pose: &HumanPose, body: &HumanBody, side: usize) -> f64 {
     let joints = pose.forward_kinematics(body);
     let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];
     let tip_m = joints.sole_points_m(body, side)[2];
-    if tip_m.z < -SOLE_DEPTH_MAX_M {
-        let (toes_m, across) = (tip_m - joints.positions_m[toe], joints.orientations[foot] * DVec3::Y);
-        let bend_rad = bend_to_height_rad(toes_m, across, -SOLE_DEPTH_MAX_M - joints.positions_m[toe].z);
-        pose.rotations[toe] = DQuat::from_rotation_y(bend_rad) * pose.rotations[toe];
+    if tip_m.z >= -SOLE_DEPTH_MAX_M {
+        return 0.0;
     }
+    let (toes_m, across) = (tip_m - joints.positions_m[toe], joints.orientations[foot] * DVec3::Y);
+    bend_to_height_rad(toes_m, across, -SOLE_DEPTH_MAX_M - joints.positions_m[toe].z)
 }
 
 /// The least turn of a vector about an axis, toes up, that brings its end to a height, or to the nearest reachable
@@ -108,7 +142,7 @@ mod tests {
     /// Height of the lowest of all soles after [`keep_soles_above_ground`], m.
     fn lowest_lifted_m(clip: &HumanClip) -> f64 {
         let mut poses = clip.frames.clone();
-        keep_soles_above_ground(&mut poses, &clip.body);
+        keep_soles_above_ground(&mut poses, &clip.body, clip.frame_rate_hz, false);
         let soles_m = poses.iter().flat_map(|pose| {
             let joints = pose.forward_kinematics(&clip.body);
             [0, 1].map(|side| lowest_sole_m(&joints, &clip.body, side))
@@ -120,7 +154,7 @@ mod tests {
     fn grounded_feet_do_not_change() {
         let clip = walk();
         let mut poses = clip.frames.clone();
-        keep_soles_above_ground(&mut poses, &clip.body);
+        keep_soles_above_ground(&mut poses, &clip.body, clip.frame_rate_hz, false);
         assert_eq!(poses, clip.frames);
     }
 
@@ -140,5 +174,16 @@ mod tests {
             }
             assert!(lowest_lifted_m(&clip) > -SOLE_DEPTH_MAX_M - 1e-3, "{pitch_rad}: {}", lowest_lifted_m(&clip));
         }
+    }
+
+    #[test]
+    fn toes_bend_gradually_also_around_a_cycle() {
+        let bends = |is_cycle: bool| gradual_bends_rad(&[(1, -0.8), (2, -0.4), (7, 0.0)], 40, 60.0, is_cycle);
+        let [open, closed] = [false, true].map(bends);
+        assert_eq!(open[&1], -0.8);
+        assert!((-0.8..-0.4).contains(&open[&2]) && open[&6] < 0.0 && !open.contains_key(&7), "{open:?}");
+        assert!(!open.contains_key(&39) && closed[&39] < 0.0, "{closed:?}");
+        let steepest = (0..6).map(|at| (closed[&at] - closed.get(&(at + 1)).unwrap_or(&0.0)).abs()).fold(0.0, f64::max);
+        assert!(steepest < 0.3, "{steepest}");
     }
 }

@@ -136,14 +136,22 @@ fn is_knee_straight(tracks: &JointTracks, side: Side) -> bool {
     (0..frames).map(bend).sum::<f64>() < LEAST_KNEE_BEND * frames as f64
 }
 
-/// The frames in which the directions of a joint are measured: all, or for feet and toes those in which both lie flat.
-/// A toe's joint alone is often lowest while the foot rolls off over it.
+/// The frames in which the directions of a joint are measured: for feet and toes those in which both lie flat (a toe's
+/// joint alone is often lowest while the foot rolls off over it); for trunk and head those in which the body is upright,
+/// since its up and its left are theirs; for limbs all.
 fn measured_frames(tracks: &JointTracks, joint: Joint) -> Vec<usize> {
     let side = side(joint).index();
     match joint {
         Joint::LeftFoot | Joint::RightFoot | Joint::LeftToe | Joint::RightToe => {
             tracks.flat_frames(&[Joint::FEET[side], Joint::TOES[side]])
         }
+        Joint::SpineLower
+        | Joint::SpineMiddle
+        | Joint::SpineUpper
+        | Joint::Neck
+        | Joint::Head
+        | Joint::LeftClavicle
+        | Joint::RightClavicle => tracks.upright.to_vec(),
         _ => (0..tracks.frame_count()).collect(),
     }
 }

@@ -1,7 +1,8 @@
-//! Poses that are not part of the motion: a separate first pose, and T-poses at the ends of a clip.
+//! Poses that are not part of the motion: a separate first pose, and T-poses and frozen poses at the ends of a clip.
 //!
 //! Many files begin with a T-pose. Some jump from it into the motion, some stand in it for seconds while a suit is
-//! calibrated, some blend out of it (PFNN: over 40 frames); some end in one. All of these frames are removed.
+//! calibrated, some blend out of it (PFNN: over 40 frames); some end in one. Where a scene is longer than its action,
+//! exports repeat a pose, often in mid-stride, which would be an idle. All of these frames are removed.
 //! Whole-clip parameters are measured after the first removal and before the second: one separate frame spoils them,
 //! while a blend or a calibration is part of the clip. Clips are in metres, z up.
 
@@ -20,6 +21,8 @@ use crate::rig::roles::Roles;
 const JUMP_OVER_MEDIAN: f64 = 8.0;
 /// Size of a jump beyond [`JUMP_OVER_MEDIAN`] times the median step, m.
 const JUMP_MIN_M: f64 = 0.05;
+/// Least size of a jump, divided by the step after it: a pose that blends into the motion moves on.
+const JUMP_OVER_NEXT: f64 = 3.0;
 /// Least number of frames of a clip whose poses are removed: shorter clips have no meaningful median.
 const FRAMES_MIN: usize = 11;
 /// Least cosine between arms and shoulder line in a T-pose (30°).
@@ -28,6 +31,10 @@ pub(crate) const SPREAD_COSINE: f64 = 0.87;
 const LOWERED_COSINE: f64 = 0.71;
 /// Least duration of moving frames without the T-poses, s: a stride.
 const REST_MIN_S: f64 = 1.0;
+/// Duration for which a pose at an end of a clip may be frozen, s: a hand-keyed stop, too short for an idle.
+const HELD_MAX_S: f64 = 0.5;
+/// Greatest displacement of a joint between two frames that are the same, m: some rounding errors.
+const SAME_POSE_M: f64 = 1e-6;
 
 /// Removes a first frame from which the pose jumps into the motion.
 pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
@@ -37,7 +44,8 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let joints = role_joints(roles);
     let mut steps_m: Vec<f64> = (1..clip.frame_count()).map(|frame| pose_step_m(clip, roles, &joints, frame)).collect();
     let first_m = steps_m.remove(0);
-    let jumps = first_m > JUMP_OVER_MEDIAN * upper_median(steps_m) + JUMP_MIN_M;
+    let next_m = steps_m[0];
+    let jumps = first_m > (JUMP_OVER_MEDIAN * upper_median(steps_m) + JUMP_MIN_M).max(JUMP_OVER_NEXT * next_m);
     let drops_arms = spread_cosine(clip, roles, 0) > SPREAD_COSINE && spread_cosine(clip, roles, 1) < LOWERED_COSINE;
     if jumps || drops_arms {
         clip.keep_frames(1..clip.frame_count());
@@ -65,6 +73,25 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
     if is_enough {
         clip.keep_frames(kept);
     }
+}
+
+/// Removes the frames at both ends in which nothing moves, but for half a second. They stay where the body moves for
+/// less than a stride.
+pub(crate) fn drop_held_ends(clip: &mut SourceClip, roles: &Roles) {
+    let (count, joints) = (clip.frame_count(), role_joints(roles));
+    let step_m = |frame: usize, joint: usize| clip.position(frame, joint).distance(clip.position(frame - 1, joint));
+    let moves = |frame: &usize| joints.iter().any(|&joint| step_m(*frame, joint) > SAME_POSE_M);
+    let (Some(first), Some(last)) = ((1..count).find(moves), (1..count).rev().find(moves)) else { return };
+    let held = (HELD_MAX_S * clip.frame_rate_hz) as usize;
+    let kept = (first - 1).saturating_sub(held)..(last + 1 + held).min(count);
+    if ((last + 1 - first) as f64) < REST_MIN_S * clip.frame_rate_hz {
+        return;
+    }
+    for (frames, end) in [(kept.start, ClipEnd::First), (count - kept.end, ClipEnd::Last)] {
+        let cut = Diagnostic::Note(Note::HeldPoseCut { frames: frames as u32, end });
+        clip.diagnostics.extend((frames > 0).then_some(cut));
+    }
+    clip.keep_frames(kept);
 }
 
 /// Least duration of these frames alone, s: a stride, or for a body that stands the least duration of an idle.

@@ -28,10 +28,13 @@ const TOO_LONG_WEIGHT: f64 = 1.6;
 const UNITS: [(f64, f64); 6] = [(1.0, 0.0), (0.1, 0.5), (0.01, 0.0), (0.001, 0.5), (0.0254, 0.6), (0.0564444, 0.65)];
 /// Strides per second times √(leg length / g), from a slow walk to a sprint (2.4 strides/s on legs of 0.84 m).
 const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
+/// Greatest misfit of a cadence: beyond 1.5 times the range the frame time is wrong, which says nothing of the unit.
+const CADENCE_MISFIT_MAX: f64 = 0.4;
 /// Gravity, m/s².
 const GRAVITY_MPS2: f64 = 9.81;
-/// Difference of misfits below which the second unit may be the right one: that of legs 1.35 times as long.
-const NEAR_MISFIT: f64 = 0.3;
+/// Difference of misfits below which the second unit may be the right one: that of legs 1.34 times as long. Legs of an
+/// adult of 2 m in decimetres are no doubt.
+const NEAR_MISFIT: f64 = 0.29;
 
 /// Share of the frames in which feet and shoulders are nearer than those that stand.
 const LONGEST_PERCENTILE: f64 = 0.9;
@@ -73,6 +76,15 @@ fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
         clip.diagnostics.push(Diagnostic::Warning(Warning::UnitDoubtful { leg_m, other_leg_m, other_unit_m }));
     }
     best.unit_m
+}
+
+/// Removes the doubt about the unit of a clip in metres whose frame time is wrong, unless its legs alone give one: the
+/// cadence says nothing of the unit then.
+pub(crate) fn drop_doubt_of_cadence(clip: &mut SourceClip, roles: &Roles, metres_per_unit: f64) {
+    let [best, second] = likeliest_units(leg_length(clip, roles) / metres_per_unit, None);
+    if second.misfit - best.misfit >= NEAR_MISFIT {
+        clip.diagnostics.retain(|found| !matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. })));
+    }
 }
 
 /// Strides per second; none of a clip of fewer than three steps.
@@ -136,7 +148,7 @@ fn leg_misfit(leg_m: f64) -> f64 {
 fn cadence_misfit(leg_m: f64, strides_hz: f64) -> f64 {
     let cadence = strides_hz * (leg_m / GRAVITY_MPS2).sqrt();
     let (slow, fast) = (libm::log(CADENCE_RANGE.start() / cadence), libm::log(cadence / CADENCE_RANGE.end()));
-    slow.max(fast).max(0.0)
+    slow.max(fast).clamp(0.0, CADENCE_MISFIT_MAX)
 }
 
 #[cfg(test)]
@@ -173,5 +185,14 @@ mod tests {
         // A leg of 36 units has 0.36 m or 0.91 m. Legs of 0.36 m come near to 4 strides/s; longer ones do not.
         check_unit(0.36, 0.01, Some(4.0));
         check_unit(0.91, 0.0254, Some(0.9));
+    }
+
+    #[test]
+    fn wrong_frame_times_leave_the_unit() {
+        for (unit_m, leg_m) in [(0.0254, 0.8), (0.0564444, 0.84), (0.1, 0.84), (0.01, 0.75)] {
+            for factor in [0.1, 0.25, 1.0, 4.8, 10.0] {
+                check_unit(leg_m, unit_m, Some(1.3 * factor));
+            }
+        }
     }
 }

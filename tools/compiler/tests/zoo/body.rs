@@ -47,8 +47,10 @@ pub(crate) struct Performance {
     /// Offset of each part from its parent, in the parent's frame, m.
     pub offsets_m: [DVec3; 22],
     pub poses: Vec<Pose>,
-    /// Forward speed, m/s; turn rate, degrees a second; speed to the left, m/s.
+    /// Forward speed, m/s; turn rate of the motion, degrees a second; speed to the left, m/s.
     pub parameters: [f64; 3],
+    /// Seconds in which the body stands before and after the motion.
+    pub standing_s: [f64; 2],
 }
 
 #[derive(Clone)]
@@ -78,6 +80,7 @@ impl Performance {
             offsets_m: std::array::from_fn(offset),
             poses: (0..source.frame_count()).map(pose).collect(),
             parameters: readme_parameters(clip),
+            standing_s: [0.0; 2],
         }
     }
 
@@ -133,7 +136,7 @@ impl Performance {
     pub(crate) fn stand_before(&mut self, stand_s: f64, blend_s: f64) {
         let (stand, first) = (self.t_pose(), self.poses[0].clone());
         let mut poses = self.transition(&stand, &first, stand_s, blend_s);
-        self.dilute(poses.len());
+        self.dilute(0, poses.len());
         poses.append(&mut self.poses);
         self.poses = poses;
     }
@@ -146,7 +149,7 @@ impl Performance {
         let stand = Pose { hips_m: last.hips_m.with_y(0.93), turns: [turn; 22] };
         let mut poses = self.transition(&stand, &last, stand_s, blend_s);
         poses.reverse();
-        self.dilute(poses.len());
+        self.dilute(1, poses.len());
         self.poses.append(&mut poses);
     }
 
@@ -156,12 +159,27 @@ impl Performance {
         std::iter::repeat_n(stand.clone(), stood).chain(blend).collect()
     }
 
-    /// Scales the parameters: whole-clip means count standing frames, except a single one, which import removes.
-    fn dilute(&mut self, standing: usize) {
+    /// Scales the velocities: whole-clip means count standing frames, except a single one, which import removes.
+    fn dilute(&mut self, end: usize, standing: usize) {
         if standing > 1 {
             let share = (self.poses.len() - 1) as f64 / (self.poses.len() + standing - 1) as f64;
-            self.parameters = self.parameters.map(|value| value * share);
+            let [forward, turn_rate, left] = self.parameters;
+            self.parameters = [share * forward, turn_rate, share * left];
+            self.standing_s[end] += standing as f64 / self.frame_rate_hz;
         }
+    }
+
+    /// Whole-clip turn rate, degrees a second: the change of facing between its means over the first and the last
+    /// quarter of a second, divided by the time between them.
+    pub(crate) fn turn_rate(&self) -> f64 {
+        const END_S: f64 = 0.25;
+        let duration_s = (self.poses.len() - 1) as f64 / self.frame_rate_hz;
+        let moving_s = duration_s - self.standing_s.iter().sum::<f64>();
+        let lost_s = self.standing_s.map(|standing_s| {
+            let moving_s = (END_S - standing_s).max(0.0);
+            0.5 * moving_s * moving_s / END_S
+        });
+        self.parameters[1] * (moving_s - lost_s.iter().sum::<f64>()) / (duration_s - END_S)
     }
 
     /// Blends from a T-pose into the motion while the body moves.

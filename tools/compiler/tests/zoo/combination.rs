@@ -245,7 +245,7 @@ impl Combination {
     }
 
     fn check_parameters(&self, body: &Performance, found: [f64; 3]) -> Result<(), String> {
-        let [forward, turn, left] = body.parameters;
+        let [forward, turn, left] = [body.parameters[0], body.turn_rate(), body.parameters[2]];
         let (size, duration_s) = (self.file.size, body.poses.len() as f64 / body.frame_rate_hz);
         let wanted = match self.change {
             Change::WrongFrameTime(factor) => [size * forward / factor, turn / factor, size * left / factor],
