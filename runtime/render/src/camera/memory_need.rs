@@ -3,7 +3,7 @@
 //! The meshes of a frame are the greatest part: those of a thousand bodies near the eye take some hundred megabytes. A few
 //! frames of the sequence are read to find out how large they are.
 //!
-//! Measured with `/usr/bin/time` over 38 inputs: 0.4 to 33 megapixels, 4 and 16 samples, 1 to 1,000 bodies, characters, PNG
+//! Measured with `/usr/bin/time` over 42 inputs: 0.4 to 33 megapixels, 4 and 16 samples, 1 to 1,000 bodies, characters, PNG
 //! and EXR, passes, blur. The process took 0.5 to 1.04 times the estimate before its margin.
 
 use crate::camera::take::{Moment, Take};
@@ -22,7 +22,7 @@ const BLUR_BYTES: usize = 16;
 /// Bytes of each matte of a blurred frame, for each pixel.
 const MATTE_BYTES: usize = 20;
 /// Bytes of each pixel and channel of the strip of an EXR frame that is drawn and compressed: values, lines, file.
-const STRIP_BYTES: usize = 4;
+const STRIP_BYTES: usize = 6;
 /// Bytes of a frame for its shadow map, its cones, and lists of parts.
 const FRAME_BYTES: usize = 96 << 20;
 /// Bytes of a vertex: position, normal, colour, texture coordinates, position in the picture.
