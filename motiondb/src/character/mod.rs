@@ -14,8 +14,8 @@
 //!     // Once for each body and frame; the lists can be used again.
 //!     let (mut transforms, [mut positions_m, mut normals]) = (Vec::<JointTransform>::new(), [Vec::new(), Vec::new()]);
 //!     fit.pose(skeleton, joints, root.frame(), &mut transforms);
-//!     // Fingers, toes and twist bones, where their rotations are known; here they stay as they are bound.
-//!     fit.pose_extra(|_extra_joint| None, &mut transforms);
+//!     // Fingers, toes and twist bones, where their rotations are known; here the fingers are at rest.
+//!     fit.pose_extra(|extra_joint| fit.resting(extra_joint), &mut transforms);
 //!     character.mesh.skin(&transforms, &mut positions_m, &mut normals);
 //!     [positions_m, normals]
 //! }
