@@ -54,6 +54,9 @@ fn a_shot_numbers_its_frames_and_leaves_out_the_preroll() {
     fbcrowd(&["render", text(recording()), "-o", text(&other), "--preroll", "9"])
         .expect_code(2)
         .says(&["preroll_s is 9"]);
+    fbcrowd(&["render", text(recording()), "-o", text(&other), "--preroll", "-1"])
+        .expect_code(2)
+        .says(&["preroll_s is -1"]);
     fbcrowd(&["render", text(recording()), "-o", text(&other), "--fps", "nan"]).expect_code(2).says(&["fps is NaN"]);
 }
 
@@ -115,6 +118,21 @@ fn blurred_frames_smear_bodies_and_their_mattes_but_not_depth() {
     let [clear_px, smeared_px]: [f32; 2] = [&clear, &smeared].map(|covers| covers.iter().sum());
     assert!((smeared_px / clear_px - 1.0).abs() < 0.15, "{clear_px} {smeared_px}");
     assert!(channel(&sharp, "R") != channel(&blurred, "R"));
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let output = recording().with_file_name("without_effect");
+    let refused = |options: &[&str], reason: &str| {
+        let arguments = [&["render", text(recording()), "-o", text(&output), "--frames", "1"], options].concat();
+        fbcrowd(&arguments).expect_code(2).says(&[reason]);
+    };
+    refused(&["--size", "640x360"], "--size belongs to a camera; add --view camera");
+    refused(&["--samples", "16"], "--samples belongs to a camera");
+    refused(&["--colour-by", "speed"], "--colour-by belongs to a camera");
+    refused(&["--labels"], "--labels belongs to a camera");
+    refused(&["--view", "camera", "--labels", "--format", "exr"], "drawn into PNG");
+    refused(&["--view", "camera", "--passes", "z"], "add --format exr");
 }
 
 #[test]

@@ -7,12 +7,28 @@
 
 use glam::{Quat, Vec3};
 
-use crate::body::ExtraJoint;
+use crate::body::{ExtraJoint, ExtraPart};
 use crate::character::fit::CharacterFit;
 use crate::character::model::CharacterExtra;
 use crate::character::posing::JointTransform;
 
+/// Bend of the joints of an index finger at rest, from the palm, degrees.
+const REST_DEG: [f32; 3] = [18.0, 28.0, 14.0];
+/// Further bend of each next finger at its knuckle, degrees.
+const NEXT_REST_DEG: f32 = 4.0;
+
 impl CharacterFit<'_> {
+    /// Rotation of a joint of a hanging hand's finger, for [`pose_extra`](Self::pose_extra) where the motion states none: a
+    /// hand is bound flat. None of a thumb, and of a finger that is bound more bent, such as around a handle.
+    pub fn resting(&self, extra: ExtraJoint) -> Option<Quat> {
+        let ExtraPart::Finger { finger: finger @ 1.., joint } = extra.part() else { return None };
+        let known = self.character.extra.iter().find(|known| known.extra == extra)?;
+        let next_deg = if joint == 0 { NEXT_REST_DEG * (finger - 1) as f32 } else { 0.0 };
+        let bend_rad = (REST_DEG[joint] + next_deg).to_radians();
+        let bound = known.parent_axes.conjugate() * known.axes;
+        (bound.angle_between(Quat::IDENTITY) < bend_rad).then(|| Quat::from_rotation_x(-extra.side().sign() * bend_rad))
+    }
+
     /// Turns the extra joints of a character that [`pose`](Self::pose) has posed. `rotation` gives the rotation of an extra
     /// joint relative to its parent; a joint without one keeps its bind place below the joint above it.
     ///

@@ -16,6 +16,7 @@ use crate::body::two_bone_reach::shortest_arc;
 use crate::body::{ExtraParent, JOINT_COUNT, Joint, Skeleton};
 use crate::character::model::Character;
 use crate::character::sole_outline::sole_outline_m;
+use crate::character::trunk_room::TrunkRoom;
 
 /// Greatest deviation of the scale from 1 for which a character's legs count as those of the skeleton.
 pub const SCALE_TOLERANCE: f32 = 0.1;
@@ -40,6 +41,8 @@ pub struct CharacterFit<'a> {
     pub(crate) wider_m: [f32; 2],
     /// Outline of each sole, `[left, right]`: points that move with the foot, and with the toes; bind space, m.
     pub(crate) soles_m: [[Vec<Vec3>; 2]; 2],
+    /// What keeps arms outside the trunk.
+    pub(crate) trunk_room: TrunkRoom,
     /// Height of the skeleton's hips above the soles at rest, m.
     pub hips_over_soles_m: f32,
 }
@@ -59,6 +62,7 @@ impl<'a> CharacterFit<'a> {
             character,
             scale,
             soles_m: [0, 1].map(|side| sole_outline_m(character, &leaders, side)),
+            trunk_room: TrunkRoom::of(character, &leaders),
             wider_m: [wider_m, -wider_m],
             turns: turns(character, skeleton, &rest_m),
             leaders,

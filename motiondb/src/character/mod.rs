@@ -14,8 +14,8 @@
 //!     // Once for each body and frame; the lists can be used again.
 //!     let (mut transforms, [mut positions_m, mut normals]) = (Vec::<JointTransform>::new(), [Vec::new(), Vec::new()]);
 //!     fit.pose(skeleton, joints, root.frame(), &mut transforms);
-//!     // Fingers, toes and twist bones, where their rotations are known; here they stay as they are bound.
-//!     fit.pose_extra(|_extra_joint| None, &mut transforms);
+//!     // Fingers, toes and twist bones, where their rotations are known; here the fingers are at rest.
+//!     fit.pose_extra(|extra_joint| fit.resting(extra_joint), &mut transforms);
 //!     character.mesh.skin(&transforms, &mut positions_m, &mut normals);
 //!     [positions_m, normals]
 //! }
@@ -25,7 +25,7 @@
 //! metres of its file; the origin lies on the ground under the pelvis.
 //!
 //! Read `model` (the noun), `texture` and `check` (its invariants), `character_file` (`.fbchar`), `fit` (what a character and a
-//! skeleton give once) with `sole_outline`, `posing` with `extra_posing`, `skinning` with `dye`, and last `choice` (which
+//! skeleton give once) with `sole_outline` and `trunk_room`, `posing` with `extra_posing`, `skinning` with `dye`, and last `choice` (which
 //! agent wears which character).
 
 mod character_file;
@@ -39,6 +39,7 @@ mod posing;
 mod skinning;
 mod sole_outline;
 mod texture;
+mod trunk_room;
 
 pub use character_file::{EXTRA_VERSION, MAGIC, VERSION, from_bytes, load, to_bytes, write};
 pub use check::{JOINTS_MAX, TRIANGLES_MAX, VERTICES_MAX, first_fault};

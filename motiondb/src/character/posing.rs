@@ -2,7 +2,8 @@
 //!
 //! 1. The orientation of each role is the canonical one times the fit's constant rotation.
 //! 2. The middle of the hips lies where the canonical body's does; other positions follow along *anatomical* parents,
-//!    not the file's: thighs may hang from a root beside the hips, feet from a control bone.
+//!    not the file's: thighs may hang from a root beside the hips, feet from a control bone. Arms turn outward where
+//!    they would pass through a trunk that is wider than the skeleton's.
 //! 3. A leg's inverse kinematics puts the ball of the foot on the sole where the canonical body's is. A foot without
 //!    toes turns about its tip instead while the heel rises, by a smaller angle, so that the ankle rises as high. A foot
 //!    whose ball is above its heel turns about the heel.
@@ -20,6 +21,7 @@ use crate::body::two_bone_reach::{EXTENSION_MAX, TwoBones, reach};
 use crate::body::{JOINT_COUNT, Joint, Joints, RootFrame, Skeleton};
 use crate::character::fit::CharacterFit;
 use crate::character::model::CharacterFoot;
+use crate::character::trunk_room::outward;
 
 /// Height of a foot's lowest point above the ground at which the hips do not sink for it any more, m.
 const LIFTED_M: f32 = 0.05;
@@ -68,6 +70,7 @@ impl CharacterFit<'_> {
     pub fn pose(&self, skeleton: &Skeleton, joints: &Joints, frame: RootFrame, transforms: &mut Vec<JointTransform>) {
         let mut posed = self.oriented(joints);
         self.place(&mut posed, joints);
+        self.clear_trunk(&mut posed);
         let targets = [0, 1].map(|side| self.foot_target(&posed, skeleton, joints, side));
         self.sink(&mut posed, &targets);
         for (side, target) in targets.iter().enumerate() {
@@ -121,6 +124,27 @@ impl CharacterFit<'_> {
             let bone_m = self.scale * (self.bind_m(role) - self.bind_m(above));
             posed.positions_m[role.index()] =
                 posed.positions_m[above.index()] + posed.rotations[above.index()] * bone_m;
+        }
+    }
+
+    /// Step 2, of the arms.
+    fn clear_trunk(&self, posed: &mut PosedRoles) {
+        let pelvis = Joint::Pelvis.index();
+        let (upright, middle_m) = (posed.rotations[pelvis], posed.positions_m[pelvis]);
+        let to_bind =
+            |position_m: Vec3| upright.conjugate() * (position_m - middle_m) / self.scale + self.bind_m(Joint::Pelvis);
+        for (side, first) in [Joint::LeftUpperArm, Joint::RightUpperArm].into_iter().enumerate() {
+            let arm = [0, 1, 2].map(|bone| Joint::ALL[first.index() + bone]);
+            let to_side = Vec3::new(1.0, if side == 0 { 1.0 } else { -1.0 }, 1.0);
+            let arm_m = arm.map(|role| to_side * to_bind(posed.positions_m[role.index()]));
+            let turn_rad = self.trunk_room.turn_rad(arm_m);
+            if turn_rad > 0.0 {
+                let turn = outward(upright * Vec3::X, turn_rad, side);
+                arm.into_iter().for_each(|role| {
+                    posed.rotations[role.index()] = turn * posed.rotations[role.index()];
+                });
+                arm[1..].iter().for_each(|role| self.place_below_its_parent(posed, *role));
+            }
         }
     }
 

@@ -76,12 +76,17 @@ fn eye_and_target_m(recording: &Recording, spec: &CameraSpec, time_s: f64) -> Re
         return Ok(eyes_m(body, recording.header().skeleton(), stature));
     }
     if !spec.keys.is_empty() {
-        return Ok(match spec.key_line {
-            KeyLine::Smooth => keyed_m(&spec.keys, time_s as f32),
-            KeyLine::Straight => straight_m(&spec.keys, time_s as f32),
-        });
+        return Ok(keyed_eye_and_target_m(spec, time_s as f32));
     }
     Ok([spec.eye_m.unwrap_or(Vec3::Z), spec.look_at_m.unwrap_or(Vec3::Y)])
+}
+
+/// Eye and target of a camera with keys at a time.
+pub(crate) fn keyed_eye_and_target_m(spec: &CameraSpec, time_s: f32) -> [Vec3; 2] {
+    match spec.key_line {
+        KeyLine::Smooth => keyed_m(&spec.keys, time_s),
+        KeyLine::Straight => straight_m(&spec.keys, time_s),
+    }
 }
 
 fn present<'a>(

@@ -82,10 +82,8 @@ impl<'a> Wardrobe<'a> {
         let joints = agent.pose.forward_kinematics(self.header.skeleton());
         let mut transforms = Vec::new();
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
-        if !extra.is_empty() {
-            let rotation = |joint: ExtraJoint| extra.get(self.extra_positions[joint.index()]?).copied();
-            fit.pose_extra(rotation, &mut transforms);
-        }
+        let recorded = |joint: ExtraJoint| extra.get(self.extra_positions[joint.index()]?).copied();
+        fit.pose_extra(|joint| recorded(joint).or_else(|| fit.resting(joint)), &mut transforms);
         let worn = Worn {
             fit,
             level: self.levels[character as usize].of_pixel(pixel_m),

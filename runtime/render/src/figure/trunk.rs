@@ -37,6 +37,13 @@ const SHIRT: [[f32; 4]; 15] = [
     [1.478, 0.122, 0.054, 0.075],
     [1.496, 0.066, 0.055, 0.064],
 ];
+/// Sections of the collar, a narrow band around the neck that begins in the shirt.
+const COLLAR: [[f32; 4]; 4] = [
+    [1.468, 0.080, 0.051, 0.070],
+    [1.488, 0.074, 0.062, 0.071],
+    [1.504, 0.068, 0.062, 0.068],
+    [1.503, 0.057, 0.050, 0.058],
+];
 /// Factors of a woman's half width, front and back at the heights of [`FEMALE_HEIGHTS`].
 const FEMALE: [[f32; 3]; 8] = [
     [1.04, 0.98, 1.06],
@@ -60,9 +67,7 @@ impl Template {
         let shirt: Vec<Section> = SHIRT.iter().map(|row| section(build, *row, Cloth::Shirt)).collect();
         self.loft(&pelvis, points);
         self.loft(&shirt, points);
-        // The collar: a narrow band around the neck.
-        let collar = [[1.478, 0.080, 0.066, 0.076], [1.504, 0.068, 0.062, 0.068], [1.503, 0.057, 0.050, 0.058]];
-        let collar = collar.map(|row| section(build, row, Cloth::Collar));
+        let collar = COLLAR.map(|row| section(build, row, Cloth::Collar));
         self.loft(&collar, points);
     }
 }

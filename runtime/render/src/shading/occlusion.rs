@@ -25,10 +25,8 @@ const CELL_M: f32 = 0.25;
 const MAX_CELLS: f32 = 1024.0;
 /// Occlusion that is not noticed: it bounds the reach of a part.
 const UNNOTICED: f32 = 0.012;
-/// Greatest reach of a part, m.
-const MAX_REACH_M: f32 = 0.9;
-/// Height from which a part hardly darkens the ground, m.
-const LOW_M: f32 = 1.3;
+/// Greatest reach of a part, m: it bounds the work of characters with huge heads.
+const MAX_REACH_M: f32 = 1.5;
 /// Strength on the ground, and on bodies.
 const STRENGTH: [f32; 2] = [1.15, 0.75];
 /// Least share of the sky's light.
@@ -41,6 +39,10 @@ struct Occluder {
     axis: Vec3,
     inverse_length_squared: f32,
     radii: [f32; 2],
+    /// Distance on the ground at which it is no longer noticed, m.
+    reach_m: f32,
+    /// Occlusion of the ground at that distance or less, which is not drawn, so that the ground darkens without an edge.
+    faint: f32,
 }
 
 /// The occluders of a scene, by cells of the ground and by agents.
@@ -59,9 +61,20 @@ pub(crate) struct OcclusionGrid {
 
 impl Occluder {
     fn new(cone: &Cone) -> Self {
-        let axis = cone.ends_m[1] - cone.ends_m[0];
+        let [from, to] = cone.ends_m;
+        let radius = cone.radii_m[0].max(cone.radii_m[1]);
+        let [low, high] = [from.z.min(to.z), from.z.max(to.z)].map(|height| height.max(0.0));
+        // A ball at the height h hides h r² / (d² + h²)^1.5 of the light at the distance d: most at the height d / √2, which
+        // is 4 r where UNNOTICED is hidden.
+        let height = (4.0 * radius).clamp(low, high);
+        let root = libm::cbrtf(radius * radius * height / UNNOTICED);
+        let reach_m = (root * root - height * height).max(0.0).sqrt().min(MAX_REACH_M);
+        let height = (MAX_REACH_M / std::f32::consts::SQRT_2).clamp(low, high);
+        let distance = (MAX_REACH_M * MAX_REACH_M + height * height).sqrt();
+        let faint = (radius * radius * height / (distance * distance * distance)).max(UNNOTICED);
+        let axis = to - from;
         let inverse_length_squared = 1.0 / axis.length_squared().max(1e-9);
-        Self { from: cone.ends_m[0], axis, inverse_length_squared, radii: cone.radii_m }
+        Self { from, axis, inverse_length_squared, radii: cone.radii_m, reach_m, faint }
     }
 
     /// Share of the light that it hides from a point with a normal.
@@ -76,18 +89,7 @@ impl Occluder {
         }
         let radius = self.radii[0] + share * (self.radii[1] - self.radii[0]);
         let distance_squared = to_ball.length_squared().max(radius * radius);
-        let hidden = facing * radius * radius / (distance_squared * distance_squared.sqrt());
-        (hidden - UNNOTICED).max(0.0)
-    }
-
-    /// Distance on the ground at which it is no longer noticed, m.
-    fn reach_m(&self) -> f32 {
-        let radius = self.radii[0].max(self.radii[1]);
-        let height = self.from.z.min(self.from.z + self.axis.z).max(radius);
-        if height > LOW_M {
-            return 0.0;
-        }
-        libm::cbrtf(radius * radius * height / UNNOTICED).min(MAX_REACH_M)
+        facing * radius * radius / (distance_squared * distance_squared.sqrt())
     }
 }
 
@@ -95,7 +97,7 @@ impl OcclusionGrid {
     pub(crate) fn new(scene: &SceneParts) -> Self {
         let occluders: Vec<Occluder> = scene.occluders.iter().map(Occluder::new).collect();
         let bounds = |occluder: &Occluder| {
-            let (reach, to) = (occluder.reach_m(), occluder.from + occluder.axis);
+            let (reach, to) = (occluder.reach_m, occluder.from + occluder.axis);
             let (low, high) = (occluder.from.min(to).truncate(), occluder.from.max(to).truncate());
             (reach > 0.0 && low.is_finite() && high.is_finite()).then(|| [low - reach, high + reach])
         };
@@ -139,7 +141,8 @@ impl OcclusionGrid {
         let entries = &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize];
         let mut left = 1.0;
         for index in entries {
-            left *= 1.0 - self.occluders[*index as usize].hidden(point_m, Vec3::Z).min(1.0);
+            let occluder = &self.occluders[*index as usize];
+            left *= 1.0 - (occluder.hidden(point_m, Vec3::Z) - occluder.faint).clamp(0.0, 1.0);
         }
         (1.0 - STRENGTH[0] * (1.0 - left)).max(LEAST)
     }
@@ -150,7 +153,7 @@ impl OcclusionGrid {
         let [from, to] = self.ranges[range].1;
         let mut left = 1.0;
         for occluder in &self.occluders[from as usize..to as usize] {
-            left *= 1.0 - 0.8 * occluder.hidden(point_m, normal).min(1.0);
+            left *= 1.0 - 0.8 * (occluder.hidden(point_m, normal) - UNNOTICED).clamp(0.0, 1.0);
         }
         (1.0 - STRENGTH[1] * (1.0 - left)).max(LEAST)
     }
@@ -166,4 +169,23 @@ fn agent_ranges(cones: &[Cone]) -> Vec<(u32, [u32; 2])> {
         (run[0].owner.agent, range)
     })
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::visibility::Owner;
+
+    #[test]
+    fn the_ground_darkens_without_an_edge() {
+        for (radius, low, high) in [(0.06, 0.1, 0.45), (0.17, 1.0, 1.3), (0.5, 0.5, 0.9), (0.8, 0.9, 2.5)] {
+            let ends_m = [low, high].map(|height| Vec3::new(0.1, 0.2, height));
+            let cone = Cone { ends_m, radii_m: [radius; 2], colour: Vec3::ONE, owner: Owner::SCENE };
+            let grid = OcclusionGrid::new(&SceneParts { occluders: vec![cone], ..SceneParts::default() });
+            let light = |step: i32| grid.on_ground(Vec3::new(0.1 + 2e-4 * step as f32, 0.2, 0.0));
+            let greatest = (0..20_000).map(|step| (light(step + 1) - light(step)).abs()).fold(0.0, f32::max);
+            assert!(greatest < 0.001, "radius {radius} m: a jump by {greatest}");
+            assert_eq!(light(20_000), 1.0);
+        }
+    }
 }

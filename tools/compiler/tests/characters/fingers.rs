@@ -131,21 +131,44 @@ fn fingers_may_precede_their_hand() {
     check_curl(&character);
 }
 
-/// Hands that are bound as half a fist, with hanging arms.
-#[test]
-fn fingers_that_are_bound_curled_are_straight_at_rest() {
+/// Hands whose fingers are bound bent by an angle at each joint but the knuckle.
+fn bound_bent(bend_deg: f32) -> Character {
     let mut figure = Figure::adult().with_fingers();
     for index in 21..figure.bones.len() {
         let (name, parent, _) = figure.bones[index];
         let joint = name.chars().last().and_then(|digit| digit.to_digit(10)).unwrap();
         if joint > 1 && !name.contains("Thumb") {
             let [x, y, z] = figure.bones[parent.unwrap()].2;
-            let angle_rad = 30_f32.to_radians() * (joint - 1) as f32;
+            let angle_rad = bend_deg.to_radians() * (joint - 1) as f32;
             let (along_m, down_m) = (0.03 * libm::cosf(angle_rad), 0.03 * libm::sinf(angle_rad));
             figure.bones[index].2 = [x + x.signum() * along_m, y - down_m, z];
         }
     }
-    check_curl(&compiled(&figure.glb()).character);
+    compiled(&figure.glb()).character
+}
+
+#[test]
+fn fingers_that_are_bound_curled_are_straight_at_rest() {
+    check_curl(&bound_bent(30.0));
+}
+
+#[test]
+fn flat_hands_bend_a_little_and_fists_stay() {
+    let skeleton = skeleton();
+    for (bend_deg, wanted_deg) in [(0.0, 28.0), (70.0, 70.0)] {
+        let character = bound_bent(bend_deg);
+        let fit = CharacterFit::new(&character, &skeleton);
+        let rested_m = posed_m(&character, |joint| fit.resting(joint));
+        for side in Side::BOTH {
+            assert!(fit.resting(ExtraJoint::finger(side, 0, 1)).is_none());
+            for finger in 1..5 {
+                let [near, far] = [0, 1].map(|joint| bone(&character, &rested_m, side, finger, joint));
+                let bent_deg = near.angle_between(far).to_degrees();
+                assert!((bent_deg - wanted_deg).abs() < 0.5, "{bent_deg}° instead of {wanted_deg}°");
+                assert!(near.z < -0.3, "{near}");
+            }
+        }
+    }
 }
 
 #[test]

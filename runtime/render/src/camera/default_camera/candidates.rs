@@ -15,16 +15,16 @@ const WIDTH_TANGENT: f32 = 36.0 / 35.0;
 const FRAMED_BODIES: f32 = 0.95;
 /// Least and greatest distance of the camera from the middle of the crowd, m.
 const DISTANCE_M: [f32; 2] = [5.0, 80.0];
-/// Heights of the eye that are tried, m, and what a score counts there: the first is an adult's.
-const HEIGHTS: [(f32, f32); 6] = [(1.65, 1.0), (2.6, 0.97), (4.2, 0.92), (7.0, 0.86), (11.0, 0.78), (18.0, 0.7)];
-/// Least distance on the ground, of the whole distance.
-const STEEP: f32 = 0.5;
+/// Elevations of the eye above the chests that are tried, degrees.
+const ELEVATIONS_DEG: [f32; 6] = [0.0, 6.0, 12.0, 21.0, 33.0, 50.0];
+/// Least height of the eye, m: an adult's.
+const EYE_M: f32 = 1.65;
 /// Shares of the bodies that a focal length frames.
 const SHARES: [f32; 3] = [0.97, 0.85, 0.65];
-/// Height that the steepness of a view is measured to, m.
+/// Height of the point that the eye is elevated from, m.
 const CHEST_M: f32 = 1.15;
 /// What a score counts against the sun.
-const AGAINST_SUN: f32 = 0.85;
+const AGAINST_SUN: f32 = 0.75;
 
 /// A place of the eye from the middle of the crowd, and what it frames.
 #[derive(Clone, Copy, Debug)]
@@ -34,14 +34,23 @@ pub(super) struct Candidate {
     pub(super) framing: Framing,
     /// What its score counts.
     pub(super) weight: f32,
-    /// Index of its height.
-    pub(super) height: usize,
+    /// Index of its elevation.
+    pub(super) elevation: usize,
     /// Index of the share of the bodies that it frames.
     pub(super) share: usize,
 }
 
-/// Number of heights of the eye.
-pub(super) const HEIGHT_COUNT: usize = HEIGHTS.len();
+impl Candidate {
+    /// The same place and focal length, aimed at bodies at some positions from the middle of the crowd, m.
+    pub(super) fn aimed(&self, offsets_m: &[Vec2]) -> Self {
+        let slopes = Slopes::new(self.offset_m, -self.offset_m.truncate().normalize_or_zero(), offsets_m);
+        let framing = Framing { direction: slopes.direction(SHARES[self.share]), ..self.framing };
+        Self { framing, ..*self }
+    }
+}
+
+/// Number of elevations of the eye.
+pub(super) const ELEVATION_COUNT: usize = ELEVATIONS_DEG.len();
 
 /// Candidates for bodies at some positions from the middle of the crowd, m.
 pub(super) fn candidates(offsets_m: &[Vec2], size_px: [u32; 2]) -> Vec<Candidate> {
@@ -57,18 +66,15 @@ pub(super) fn candidates(offsets_m: &[Vec2], size_px: [u32; 2]) -> Vec<Candidate
         let mut distances_m = DISTANCES.map(|share| (share * whole_m).clamp(DISTANCE_M[0], DISTANCE_M[1])).to_vec();
         distances_m.dedup();
         for distance_m in distances_m {
-            for (height, (height_m, weight)) in HEIGHTS.into_iter().enumerate() {
-                let above_m = height_m - CHEST_M;
-                let on_ground_m = (distance_m * distance_m - above_m * above_m).max(0.0).sqrt();
-                let on_ground_m = on_ground_m.max(STEEP * distance_m);
-                let offset_m = (on_ground_m * direction).extend(height_m);
+            for (elevation, elevation_deg) in ELEVATIONS_DEG.into_iter().enumerate() {
+                let (sin, cos) = libm::sincosf(elevation_deg.to_radians());
+                let offset_m = (cos * distance_m * direction).extend((CHEST_M + sin * distance_m).max(EYE_M));
                 // A steep view shows the tops of heads.
-                let level = on_ground_m / Vec2::new(on_ground_m, above_m).length();
-                let weight = weight * level * light;
+                let weight = light * cos * cos * cos;
                 let slopes = Slopes::new(offset_m, -direction, offsets_m);
                 candidates.extend(SHARES.into_iter().enumerate().map(|(share, framed)| {
                     let framing = slopes.framing(framed, size_px);
-                    Candidate { offset_m, framing, weight, height, share }
+                    Candidate { offset_m, framing, weight, elevation, share }
                 }));
             }
         }

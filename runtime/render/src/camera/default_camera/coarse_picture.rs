@@ -2,7 +2,7 @@
 //! are edges with a height. World, metres.
 //!
 //! The score is the mean over bodies of the share that is seen, times weights that grow with the body's size in the
-//! picture, and as it faces the eye. Bodies that the picture's edge cuts, and what is close before the eye, lower it.
+//! picture, and as it faces the eye. Bodies that the picture's edge cuts lower it.
 
 use glam::Vec2;
 
@@ -16,20 +16,16 @@ const CELLS: f32 = 2304.0;
 const SIDE_MAX: f32 = 256.0;
 /// Breadth and height of a body, m.
 const BODY_M: Vec2 = Vec2::new(0.5, 1.75);
-/// Share of the picture's height from which on a body is close before the eye.
-const CLOSE: f32 = 0.7;
-/// Depth up to which walls are close before the eye, m.
-const CLOSE_WALL_M: f32 = 3.5;
 /// Heights at which a body is tested against walls, m: shins and chest.
 const TESTED_M: [f32; 2] = [0.4, 1.4];
 /// Number of bodies of a moment that are tested against walls and counted, about.
 const JUDGED: usize = 40;
 /// Share of the picture's height at which a body weighs half as much as a large one.
-const HALF_WEIGHT: f32 = 0.17;
+const HALF_WEIGHT: f32 = 0.1;
 /// What a body counts that turns its back.
 const BACK: f32 = 0.8;
-/// What the score loses where the picture's upper edge, its lower edge, or a side cuts all bodies.
-const CUT_LOSS: [f32; 3] = [0.9, 0.7, 0.4];
+/// What the score loses where edges of the picture cut all bodies.
+const CUT_LOSS: f32 = 0.6;
 /// Least part of a body beyond an edge that cuts it, of its height or breadth.
 const CUT: f32 = 0.08;
 /// What the score loses where all bodies are at an edge.
@@ -37,8 +33,6 @@ const UNBALANCED_LOSS: f32 = 0.5;
 /// Spread of what is seen, standard deviation over the picture's height, at which the score is halved: a thin line of
 /// bodies leaves the picture empty.
 const HALF_SPREAD: f32 = 0.03;
-/// Number of rays, from the left to the right edge, that look for close walls.
-const RAYS: usize = 9;
 
 /// Size of a coarse picture with the proportions of another one.
 pub(super) fn coarse_size_px(size_px: [u32; 2]) -> [u32; 2] {
@@ -70,20 +64,9 @@ pub(super) fn score(lens: &Lens, walls: &Walls, bodies: &[CrowdBody]) -> f32 {
     };
     let judged = (0..bodies.len()).step_by(step);
     let mean = judged.clone().map(value).sum::<f32>() / judged.len().max(1) as f32;
-    let open = 1.0 - seen.close_share;
-    let whole = 1.0 - seen.cut_loss;
+    let whole = 1.0 - CUT_LOSS * seen.cut_share;
     let balance = 1.0 - UNBALANCED_LOSS * seen.middle.abs().max_element();
-    mean * open * open * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD) * open_share(lens, walls)
-}
-
-/// Share of the rays across the picture that meet no wall close before the eye.
-fn open_share(lens: &Lens, walls: &Walls) -> f32 {
-    let is_open = |ray: &usize| {
-        let across = lens.size().x * (*ray as f32 + 0.5) / RAYS as f32;
-        let uv = lens.to_uv(Vec2::new(across, 0.5 * lens.size().y));
-        !walls.hide(lens.eye_m, lens.to_world(lens.at_depth(uv, CLOSE_WALL_M)))
-    };
-    (0..RAYS).filter(is_open).count() as f32 / RAYS as f32
+    mean * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD)
 }
 
 /// Bodies in a coarse picture, without walls.
@@ -94,10 +77,8 @@ struct SeenBodies {
     whole: Vec<f32>,
     /// Cells in which each body is the nearest.
     seen: Vec<u32>,
-    /// Share of the picture that bodies close before the eye cover.
-    close_share: f32,
-    /// Mean of what bodies lose that the picture's edge cuts, weighted by their height.
-    cut_loss: f32,
+    /// Share of the bodies that the picture's edge cuts, weighted by their height.
+    cut_share: f32,
     /// Middle of all cells in which bodies are seen, from that of the picture, of half its size.
     middle: Vec2,
     /// Standard deviation of their height in the picture, of its height.
@@ -111,15 +92,14 @@ impl SeenBodies {
             heights_px: vec![0.0; count],
             whole: vec![0.0; count],
             seen: vec![0; count],
-            close_share: 0.0,
-            cut_loss: 0.0,
+            cut_share: 0.0,
             middle: Vec2::ZERO,
             spread: 0.0,
         };
         let [width, height] = lens.size_px.map(|side| side as usize);
         // Depth and index of the nearest body of each cell.
         let mut nearest = vec![(f32::INFINITY, usize::MAX); width * height];
-        let (mut lost_px, mut all_px) = (0.0, 0.0);
+        let (mut cut_px, mut all_px) = (0.0, 0.0);
         for (index, CrowdBody { position_m, .. }) in bodies.iter().enumerate() {
             let depth_m = lens.to_camera(position_m.extend(0.5 * BODY_M.y)).z;
             let [feet, head] = [0.0, BODY_M.y].map(|height_m: f32| lens.to_px(position_m.extend(height_m)));
@@ -136,7 +116,9 @@ impl SeenBodies {
             let [columns, rows] = [inside(columns, width), inside(rows, height)];
             if !columns.is_empty() && !rows.is_empty() {
                 all_px += height_px;
-                lost_px += height_px * cut_loss(lens, [middle - half, top], [middle + half, feet.y]);
+                if is_cut(lens, Vec2::new(middle - half, top), Vec2::new(middle + half, feet.y)) {
+                    cut_px += height_px;
+                }
             }
             for row in rows {
                 for cell in &mut nearest[row * width..][columns.clone()] {
@@ -146,20 +128,18 @@ impl SeenBodies {
                 }
             }
         }
-        let (mut close, mut covered, mut sum, mut squares) = (0, 0.0, Vec2::ZERO, 0.0);
+        let (mut covered, mut sum, mut squares) = (0.0, Vec2::ZERO, 0.0);
         for (cell, (_, index)) in nearest.iter().enumerate().filter(|(_, (_, index))| *index != usize::MAX) {
             drawn.seen[*index] += 1;
-            close += usize::from(drawn.heights_px[*index] > CLOSE * lens.size().y);
             let at = (Vec2::new((cell % width) as f32, (cell / width) as f32) + 0.5) / lens.size();
             (covered, sum, squares) = (covered + 1.0, sum + at, squares + at.y * at.y);
         }
-        drawn.close_share = close as f32 / nearest.len() as f32;
         if covered > 0.0 {
             let mean = sum / covered;
             drawn.middle = 2.0 * mean - 1.0;
             drawn.spread = (squares / covered - mean.y * mean.y).max(0.0).sqrt();
         }
-        drawn.cut_loss = if all_px > 0.0 { lost_px / all_px } else { 0.0 };
+        drawn.cut_share = if all_px > 0.0 { cut_px / all_px } else { 0.0 };
         drawn
     }
 
@@ -169,11 +149,10 @@ impl SeenBodies {
     }
 }
 
-/// What a body loses that an edge of the picture cuts.
-fn cut_loss(lens: &Lens, [left, top]: [f32; 2], [right, bottom]: [f32; 2]) -> f32 {
-    let (size, least) = (lens.size(), CUT * Vec2::new(right - left, bottom - top));
-    let is_cut_at = [top < -least.y, bottom > size.y + least.y, left < -least.x || right > size.x + least.x];
-    is_cut_at.iter().zip(CUT_LOSS).filter(|(is_cut, _)| **is_cut).fold(0.0, |most, (_, loss)| most.max(loss))
+/// Whether an edge of the picture cuts a body with these corners.
+fn is_cut(lens: &Lens, low: Vec2, high: Vec2) -> bool {
+    let least = CUT * (high - low);
+    low.cmplt(-least).any() || high.cmpgt(lens.size() + least).any()
 }
 
 /// First cell of a range and the one after its last, at least one cell.

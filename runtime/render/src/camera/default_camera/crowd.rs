@@ -5,10 +5,8 @@ use glam::Vec2;
 
 use crate::error::RenderError;
 
-/// Number of moments of a crowd, and of few bodies, whose frames are read quickly.
-const MOMENTS: [u32; 2] = [12, 36];
-/// Number of bodies up to which they are few.
-const FEW: usize = 30;
+/// Number of moments of a recording.
+const MOMENTS: u32 = 36;
 /// Greatest number of bodies of a moment, at even steps.
 const BODIES_MAX: usize = 1_000;
 /// Share of the bodies of a moment that its middle leaves out on each side.
@@ -32,12 +30,10 @@ pub(super) struct CrowdMoment {
 
 /// Moments from a time to the end of a recording at which bodies are present.
 pub(super) fn read_moments(recording: &Recording, start_s: f64) -> Result<Vec<CrowdMoment>, RenderError> {
-    let is_few = recording.population().agents.len() <= FEW;
-    let count = MOMENTS[usize::from(is_few)];
     let length_s = (duration_s(recording) - start_s).max(0.0);
     let mut moments = Vec::new();
-    for index in 0..count {
-        let time_s = start_s + length_s * f64::from(index) / f64::from(count - 1);
+    for index in 0..MOMENTS {
+        let time_s = start_s + length_s * f64::from(index) / f64::from(MOMENTS - 1);
         let agents = sample(recording, time_s)?;
         let step = agents.len().div_ceil(BODIES_MAX).max(1);
         let body = |agent: &AgentFrame| CrowdBody { position_m: agent.root.position_m, ahead: agent.root.forward() };
@@ -65,13 +61,14 @@ pub(super) fn filmed_still(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
     moments.into_iter().map(|moment| CrowdMoment { centre_m, ..moment }).collect()
 }
 
-/// The same moments for a camera that moves with the middle of the crowd, smoothed over the neighbours.
+/// The same moments for a camera that moves with the middle of the crowd, smoothed over the neighbours
+/// of each.
 pub(super) fn filmed_moving(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
     let middles_m: Vec<Vec2> = moments.iter().map(|moment| middle_m(moment.bodies.iter())).collect();
     let last = middles_m.len().saturating_sub(1);
-    let centre_m = |at: usize| {
-        let [before, after] = [middles_m[at.saturating_sub(1)], middles_m[(at + 1).min(last)]];
-        0.25 * before + 0.5 * middles_m[at] + 0.25 * after
+    let centre_m = |at: usize| match at {
+        _ if at == 0 || at == last => middles_m[at],
+        _ => 0.25 * middles_m[at - 1] + 0.5 * middles_m[at] + 0.25 * middles_m[at + 1],
     };
     moments.into_iter().enumerate().map(|(at, moment)| CrowdMoment { centre_m: centre_m(at), ..moment }).collect()
 }

@@ -15,10 +15,6 @@ const FRAMED: f32 = 0.88;
 const BODY_M: f32 = 1.75;
 /// Greatest share of the picture's height that a body in the middle of the crowd takes.
 const BODY_SHARE: f32 = 0.5;
-/// Share of the free height by which a level view shows the bodies below the middle: empty sky rather than empty ground.
-const LOWERED: f32 = 0.2;
-/// Slope from which on a view is not lowered.
-const STEEP: f32 = 0.15;
 /// Distance before the eye from which on bodies are framed, m.
 const NEAR_M: f32 = 1.0;
 
@@ -66,26 +62,37 @@ impl Slopes {
         slopes
     }
 
+    /// The direction to the middle of a share of the bodies.
+    pub(super) fn direction(&self, share: f32) -> Vec3 {
+        let [right, left, low, high] = self.edges(share);
+        self.to_world(left.midpoint(right), low.midpoint(high)).normalize()
+    }
+
     /// The framing that holds a share of the bodies.
     pub(super) fn framing(&self, share: f32, size_px: [u32; 2]) -> Framing {
-        let out = 1.0 - share;
-        let [right, left] = [0.5 * out, 1.0 - 0.5 * out].map(|at| quantile(&self.left, at));
-        let [low, high] = [quantile(&self.feet, out), quantile(&self.heads, share)];
-        let to_world = |left: f32, up: f32| (self.ahead + left * self.ahead.perp()).extend(up);
-        let [across, up] = [left.midpoint(right), low.midpoint(high)];
-        let direction = to_world(across, up).normalize();
+        let [right, left, low, high] = self.edges(share);
+        let direction = self.direction(share);
         let level = Lens::perspective(size_px, Vec3::ZERO, direction, 1.0);
         let mut half = Vec2::ZERO;
         for (left, up) in [(left, low), (left, high), (right, low), (right, high)] {
-            let at = level.to_camera(to_world(left, up));
+            let at = level.to_camera(self.to_world(left, up));
             half = half.max(at.truncate().abs() / at.z.max(1e-3));
         }
         let proportion = size_px[0] as f32 / size_px[1] as f32;
         let of_body = proportion * quantile(&self.heights, 0.5) / BODY_SHARE;
         let tangent = (2.0 / FRAMED * half.x.max(proportion * half.y)).max(of_body);
         let focal_mm = (FILM_MM / tangent.max(1e-3)).floor().clamp(FOCAL_MM[0], FOCAL_MM[1]);
-        let free = (0.5 * FRAMED * FILM_MM / (focal_mm * proportion) - half.y).max(0.0);
-        let lowered = LOWERED * (1.0 - up.abs() / STEEP).max(0.0);
-        Framing { direction: to_world(across, up + lowered * free).normalize(), focal_mm }
+        Framing { direction, focal_mm }
+    }
+
+    /// Slopes of the right and left edge of a share of the bodies, and of its lower and upper edge.
+    fn edges(&self, share: f32) -> [f32; 4] {
+        let out = 1.0 - share;
+        let [right, left] = [0.5 * out, 1.0 - 0.5 * out].map(|at| quantile(&self.left, at));
+        [right, left, quantile(&self.feet, out), quantile(&self.heads, share)]
+    }
+
+    fn to_world(&self, left: f32, up: f32) -> Vec3 {
+        (self.ahead + left * self.ahead.perp()).extend(up)
     }
 }

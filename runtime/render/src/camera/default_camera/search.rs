@@ -1,20 +1,21 @@
 //! The choice of the default camera: of all candidates the one with the best score, the first of equals. World, metres.
 //!
 //! The score of a candidate is the geometric mean over moments of [`coarse_picture::score`], times its weight. All are
-//! scored by a few bodies at few moments; the best ones of each height again by more.
+//! scored by a few bodies at few moments; the best ones of each elevation again by more.
 //!
-//! A camera stands still; it moves with the middle of the crowd where the crowd is seen much better so.
+//! A camera stands still; it moves with the middle of the crowd where the crowd is seen better so, and no wall is in its way.
 
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::scenario::{CameraKey, CameraSpec, Scenario};
+use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use crate::camera::default_camera::candidates::{Candidate, HEIGHT_COUNT, candidates};
+use crate::camera::default_camera::candidates::{Candidate, ELEVATION_COUNT, candidates};
 use crate::camera::default_camera::coarse_picture::{self, coarse_size_px};
 use crate::camera::default_camera::crowd::{CrowdMoment, filmed_moving, filmed_still, read_moments, thinned};
 use crate::camera::default_camera::path::best_path;
 use crate::camera::default_camera::walls::Walls;
+use crate::camera::placement::keyed_eye_and_target_m;
 use crate::error::RenderError;
 
 /// Name of the camera in captions.
@@ -23,14 +24,16 @@ pub(crate) const DEFAULT_NAME: &str = "default";
 const FRAMED: [usize; 2] = [12, 40];
 /// Number of moments, and of bodies of each, that all candidates are scored by, about.
 const COARSE: [usize; 2] = [6, 120];
-/// Number of candidates of each height that are scored by all moments.
+/// Number of candidates of each elevation that are scored by all moments.
 const FINALISTS: usize = 8;
 /// Added to the score of each moment, so that one without a body does not decide alone.
 const UNSEEN: f32 = 0.02;
 /// Focal length where no body is ever present, mm.
 const EMPTY_MM: f32 = 35.0;
 /// What the score of a moving camera counts.
-const MOVING: f32 = 0.7;
+const MOVING: f32 = 0.85;
+/// Number of parts between two keys of a moving camera that are tested against walls.
+const PARTS: u8 = 8;
 
 /// The camera of a recording without one, for pictures of a size and frames from a time on, s.
 ///
@@ -61,7 +64,9 @@ fn best_camera(scenario: &Scenario, moments: Vec<CrowdMoment>, size_px: [u32; 2]
     let still = Filmed { walls: &walls, moments: filmed_still(moments.clone()), size_px };
     let moving = Filmed { walls: &walls, moments: filmed_moving(moments), size_px };
     let [of_still, of_moving] = [still.best_place(), moving.best_path()];
-    if MOVING * of_moving.1 > of_still.1 { moving.camera(&of_moving.0) } else { still.camera(&of_still.0) }
+    let moves = MOVING * of_moving.1 > of_still.1;
+    let moving = moves.then(|| moving.free_camera(&of_moving.0)).flatten();
+    moving.unwrap_or_else(|| still.camera(&of_still.0))
 }
 
 impl Filmed<'_> {
@@ -79,11 +84,11 @@ impl Filmed<'_> {
         let few = self.few();
         let scores: Vec<f32> = candidates.par_iter().map(|candidate| few.score(candidate)).collect();
         let mut finalists: Vec<usize> = Vec::new();
-        for height in 0..HEIGHT_COUNT {
-            let is_of_height = |at: &usize| candidates[*at].height == height;
-            let mut of_height: Vec<usize> = (0..candidates.len()).filter(is_of_height).collect();
-            of_height.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
-            finalists.extend(of_height.into_iter().take(FINALISTS));
+        for elevation in 0..ELEVATION_COUNT {
+            let is_so_high = |at: &usize| candidates[*at].elevation == elevation;
+            let mut so_high: Vec<usize> = (0..candidates.len()).filter(is_so_high).collect();
+            so_high.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+            finalists.extend(so_high.into_iter().take(FINALISTS));
         }
         finalists.sort_unstable();
         let scores: Vec<f32> = finalists.par_iter().map(|at| self.score(&candidates[*at])).collect();
@@ -91,19 +96,31 @@ impl Filmed<'_> {
         (vec![candidates[finalists[best]]; self.moments.len()], scores[best])
     }
 
-    /// The best candidates along the way of the crowd, with one focal length.
+    /// The best candidates along the way of the crowd, with one focal length. At each moment they aim at its bodies.
     fn best_path(&self) -> Choice {
         let (place, _) = self.best_place();
         let Some(Candidate { share, framing, .. }) = place.first().copied() else { return (Vec::new(), 0.0) };
         let mut candidates = self.candidates();
         candidates.retain(|candidate| candidate.share == share);
         candidates.iter_mut().for_each(|candidate| candidate.framing.focal_mm = framing.focal_mm);
-        let of_moment = |moment: &CrowdMoment| -> Vec<f32> {
-            candidates.iter().map(|candidate| self.logarithm(candidate, moment)).collect()
+        let few = thinned(&self.moments, [self.moments.len().max(1), COARSE[1]]);
+        let aimed = |at: usize| -> Vec<Candidate> {
+            let around = &few[at.saturating_sub(1)..(at + 2).min(few.len())];
+            let bodies = around.iter().flat_map(|moment| &moment.bodies);
+            let offsets_m: Vec<Vec2> = bodies.map(|body| body.position_m - few[at].centre_m).collect();
+            candidates.iter().map(|candidate| candidate.aimed(&offsets_m)).collect()
         };
-        let logarithms: Vec<Vec<f32>> = self.moments.par_iter().map(of_moment).collect();
-        let (path, mean) = best_path(&candidates, &self.moments, &logarithms);
-        (path.into_iter().map(|at| candidates[at]).collect(), score_of(mean))
+        let aimed: Vec<Vec<Candidate>> = (0..few.len()).into_par_iter().map(aimed).collect();
+        let of_moment = |(moment, aimed): (&CrowdMoment, &Vec<Candidate>)| -> Vec<f32> {
+            aimed.iter().map(|candidate| self.logarithm(candidate, moment)).collect()
+        };
+        let logarithms: Vec<Vec<f32>> = few.par_iter().zip(&aimed).map(of_moment).collect();
+        let path = best_path(&candidates, &few, &logarithms, self.walls);
+        let path: Vec<Candidate> = path.into_iter().zip(&aimed).map(|(at, aimed)| aimed[at]).collect();
+        let sum: f32 =
+            path.iter().zip(&self.moments).map(|(candidate, moment)| self.logarithm(candidate, moment)).sum();
+        let mean = sum / path.len().max(1) as f32;
+        (path, score_of(mean))
     }
 
     /// The same with few bodies at few moments.
@@ -121,6 +138,25 @@ impl Filmed<'_> {
     fn logarithm(&self, candidate: &Candidate, moment: &CrowdMoment) -> f32 {
         let lens = candidate.framing.lens(eye_m(moment, candidate), self.size_px);
         libm::logf(candidate.weight * coarse_picture::score(&lens, self.walls, &moment.bodies) + UNSEEN)
+    }
+
+    /// The camera of a path: smooth where no wall is in its way, else in straight lines; none where a wall is in their way, too.
+    fn free_camera(&self, path: &[Candidate]) -> Option<CameraSpec> {
+        let camera = self.camera(path);
+        let lines = [KeyLine::Smooth, KeyLine::Straight].map(|key_line| CameraSpec { key_line, ..camera.clone() });
+        lines.into_iter().find(|camera| self.is_free(camera))
+    }
+
+    /// Whether no wall is on the path of a camera.
+    fn is_free(&self, camera: &CameraSpec) -> bool {
+        let is_free_between = |keys: &[CameraKey]| {
+            let eye_m = |part: u8| {
+                let share = f32::from(part) / f32::from(PARTS);
+                keyed_eye_and_target_m(camera, keys[0].time_s + share * (keys[1].time_s - keys[0].time_s))[0]
+            };
+            !(0..PARTS).any(|part| self.walls.block(eye_m(part), eye_m(part + 1)))
+        };
+        camera.keys.windows(2).all(is_free_between)
     }
 
     /// The camera of a choice: still, where it has one eye.
@@ -218,8 +254,12 @@ mod tests {
             wall([low, low], [low + 0.2, high]),
             wall([high - 0.2, low], [high, high]),
         ];
-        let lens = lenses(&camera(&scenario, &[block(Vec2::ZERO, 3, 9)]), 1)[0];
-        assert!(lens.eye_m.z > 4.0, "{lens:?}");
+        let positions_m = block(Vec2::ZERO, 3, 9);
+        let lens = lenses(&camera(&scenario, std::slice::from_ref(&positions_m)), 1)[0];
+        let walls = Walls::new(&scenario);
+        assert!(walls.hold(Vec3::new(low, low, 2.4)) && lens.eye_m.z > 3.5, "{lens:?}");
+        let is_seen = |position_m: &&Vec2| !walls.hide(lens.eye_m, position_m.extend(1.3));
+        assert_eq!(positions_m.iter().filter(is_seen).count(), 9, "{lens:?}");
     }
 
     #[test]
@@ -285,6 +325,27 @@ mod tests {
         assert!(hidden <= 2, "{hidden}");
         for keys in camera.keys.windows(2) {
             assert!(keys[0].eye_m.distance(keys[1].eye_m) < 4.5, "{keys:?}");
+        }
+    }
+
+    #[test]
+    fn no_wall_is_in_the_way_of_a_moving_camera() {
+        // Along a street between blocks, past a wall across all of it but a gate.
+        let mut scenario = Scenario::of(Vec::new());
+        scenario.obstacles_m = vec![
+            wall([-5.0, 5.0], [65.0, 9.0]),
+            wall([-5.0, -9.0], [65.0, -5.0]),
+            wall([30.0, 1.5], [30.4, 5.0]),
+            wall([30.0, -5.0], [30.4, -1.5]),
+        ];
+        let moments_m: Vec<Vec<Vec2>> =
+            (0..36).map(|step| block(Vec2::new(1.5 * f32::from(step as u8), -0.5), 2, 4)).collect();
+        let camera = camera(&scenario, &moments_m);
+        assert_eq!(camera.keys.len(), moments_m.len());
+        let walls = Walls::new(&scenario);
+        for hundredth in 0..3_500_u16 {
+            let [eye_m, _] = keyed_eye_and_target_m(&camera, 0.01 * f32::from(hundredth));
+            assert!(!walls.hold(eye_m), "{eye_m} after {hundredth} hundredths of a second");
         }
     }
 

@@ -36,6 +36,12 @@ impl<'a> Walls<'a> {
         self.0.iter().any(|wall| wall.holds(point_m))
     }
 
+    /// Whether the line between two places of an eye passes through a wall or close to one.
+    pub(super) fn block(&self, from_m: Vec3, to_m: Vec3) -> bool {
+        let steps = (from_m.distance(to_m) / GAP_M).ceil();
+        (0..=steps as u32).any(|step| self.hold(from_m.lerp(to_m, step as f32 / steps.max(1.0))))
+    }
+
     /// Whether a wall is between two points.
     pub(super) fn hide(&self, eye_m: Vec3, at_m: Vec3) -> bool {
         self.0.iter().any(|wall| wall.hides(eye_m, at_m))

@@ -101,6 +101,7 @@ fn stride_pose(fit: &CharacterFit, stride: &Stride, facing_rad: f32) -> Vec<Join
         AgentFrame { pose: stride.pose, root: Root { position_m: Vec2::ZERO, facing_rad }, ..AgentFrame::default() };
     let mut transforms = Vec::new();
     fit.pose(skeleton, &agent.pose.forward_kinematics(skeleton), agent.root.frame(), &mut transforms);
+    fit.pose_extra(|joint| fit.resting(joint), &mut transforms);
     transforms
 }
 

@@ -94,10 +94,12 @@ pub(crate) fn from_uri(
     let Some(name) = percent_decoded(uri) else {
         return malformed(position, "its URI is not percent-encoded text", "export it as .glb");
     };
-    let is_readable = |path: &PathBuf| outside == Outside::Allowed || is_beside(file, &name, path);
-    let Some(path) = named_path(file, &name).filter(is_readable) else {
-        return malformed(position, format!("`{name}` lies outside the document's folder"), MOVE_OR_ALLOW);
+    let Some(path) = named_path(file, &name) else {
+        return malformed(position, format!("`{name}` is no path of a file beside the document"), KEEP_BESIDE);
     };
+    if outside == Outside::Refused && !is_beside(file, &name, &path) {
+        return malformed(position, format!("`{name}` lies outside the document's folder"), MOVE_OR_ALLOW);
+    }
     let most = (length as u64).min(BYTES_MAX as u64 + 1);
     let mut bytes = Vec::new();
     match input_file::open(&path).and_then(|open| open.take(most).read_to_end(&mut bytes)) {
@@ -161,6 +163,10 @@ mod tests {
             let refused = read(uri, Outside::Refused).unwrap_err().to_string();
             assert!(refused.contains("lies outside") && refused.contains("--allow-outside"), "{refused}");
             assert_eq!(read(uri, Outside::Allowed).unwrap(), b"that");
+        }
+        for uri in ["http://example.org/a.bin", "file:///etc/passwd", "C:\\a.bin"] {
+            let refused = read(uri, Outside::Allowed).unwrap_err().to_string();
+            assert!(refused.contains("no path") && !refused.contains("--allow-outside"), "{refused}");
         }
         assert!(read("missing.bin", Outside::Refused).unwrap_err().to_string().contains("cannot be read"));
     }

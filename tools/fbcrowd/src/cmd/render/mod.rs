@@ -120,6 +120,24 @@ struct CameraArgs {
     labels: bool,
 }
 
+impl CameraArgs {
+    /// Name of an option that has another value than its default.
+    fn given(&self) -> Option<&'static str> {
+        let options = [
+            ("--camera", self.camera.is_some()),
+            ("--cameras", self.cameras.is_some()),
+            ("--size", self.size.is_some()),
+            ("--samples", self.samples != SamplePattern::default()),
+            ("--occlusion", self.occlusion != OcclusionArg::Full),
+            ("--no-shadow", self.no_shadow),
+            ("--colour-by", self.colour_by != ColourByArg::Agent),
+            ("--burn-in", self.burn_in),
+            ("--labels", self.labels),
+        ];
+        options.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
+    }
+}
+
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = rendering::open(&args.recording)?;
     let rendered = match args.view {
@@ -152,8 +170,8 @@ fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Fa
     if args.exr.passes.is_some() || args.exr.compression.is_some() || args.exr.colour_space.is_some() {
         return Err(Failure::bad("--passes, --compression and --colour-space need --view camera".to_owned()));
     }
-    if args.camera.camera.is_some() || args.camera.cameras.is_some() {
-        return Err(Failure::bad("--camera and --cameras choose a camera; add --view camera".to_owned()));
+    if let Some(option) = args.camera.given() {
+        return Err(Failure::bad(format!("{option} belongs to a camera; add --view camera")));
     }
     let options = SequenceOptions {
         folder: args.output.clone().unwrap_or_default(),
@@ -182,6 +200,9 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
         return Err(Failure::bad(
             "--passes, --compression and --colour-space belong to EXR; add --format exr".to_owned(),
         ));
+    }
+    if matches!(args.format, FormatArg::Exr) && (*burn_in || *labels) {
+        return Err(Failure::bad("--burn-in and --labels are drawn into PNG; remove them or --format exr".to_owned()));
     }
     let mut inputs = vec![args.recording.clone()];
     let (mut size_px, mut other_cameras) = (*size, None);

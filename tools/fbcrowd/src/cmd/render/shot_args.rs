@@ -10,10 +10,10 @@ use crate::terminal::failure::Failure;
 #[command(next_help_heading = "Shot (default: the scenario's `[shot]`)")]
 pub(crate) struct ShotArgs {
     /// Frames per second, such as 24 or 23.976; poses between steps are interpolated with planted feet held.
-    #[arg(long, value_name = "RATE")]
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
     fps: Option<f32>,
     /// Simulated time before the first frame, s.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     preroll: Option<f32>,
     /// Number of the first frame; `--frames` counts from it.
     #[arg(long, value_name = "N")]
@@ -22,7 +22,7 @@ pub(crate) struct ShotArgs {
     #[arg(long, value_name = "N")]
     samples_per_frame: Option<u32>,
     /// Opening of the shutter, degrees; 360 is the time of a frame.
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     shutter: Option<f32>,
 }
 

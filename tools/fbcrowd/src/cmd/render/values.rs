@@ -54,7 +54,7 @@ pub(super) enum OverlayArg {
     Constraints,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum OcclusionArg {
     None,
     /// The ground at the feet.
@@ -63,7 +63,7 @@ pub(super) enum OcclusionArg {
     Full,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColourByArg {
     /// Each agent has its own hue.
     Agent,
