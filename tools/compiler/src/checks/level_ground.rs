@@ -3,7 +3,7 @@
 //! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis
 //! finds no steady stride in them and cannot state why. Clips are in metres, z up.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use glam::{DVec2, DVec3};
 use motiondb::body::Joint;
@@ -31,6 +31,9 @@ const SLIDE_MIN_MPS: f64 = 0.4;
 const SLIDE_MIN_SHARE: f64 = 0.3;
 /// Least share of the time that feet keep to one slide; below it the slide is noise.
 const STANCE_SHARE_MIN: f64 = 0.3;
+/// Greatest turn of a joint in a body that moves where radians were read as degrees: a turn of 2π is 6.3° then. The pose
+/// of a figure that is pushed does not move at all.
+const RADIANS_AS_DEGREES: RangeInclusive<f64> = 0.2..=std::f64::consts::TAU;
 /// Least turn rate of a body that turns without a step, rad/s.
 const TURN_MIN_RAD_S: f64 = 0.25;
 /// Least lift of a foot that steps, m for a person's leg.
@@ -137,8 +140,22 @@ impl GroundCheck<'_> {
         if !stands || slide.length() < SLIDE_MIN_MPS.max(SLIDE_MIN_SHARE * travel.length()) * self.scale.sqrt() {
             return None;
         }
+        let (steps, turned_rad) = (!self.steps.is_empty(), self.greatest_turn_rad());
+        if !steps && RADIANS_AS_DEGREES.contains(&turned_rad.to_degrees()) {
+            return Some(Warning::RadiansLikely { turned_rad: turned_rad as f32 });
+        }
         let [slide_mps, body_mps] = [slide, travel].map(|velocity| velocity.length() as f32);
-        Some(Warning::Skating { body_mps, slide_mps, steps: !self.steps.is_empty() })
+        Some(Warning::Skating { body_mps, slide_mps, steps })
+    }
+
+    /// Greatest turn of a joint since the first frame, rad.
+    fn greatest_turn_rad(&self) -> f64 {
+        let joints = self.roles.joints.iter().flatten();
+        let turn_rad = |frame: usize, joint: usize| {
+            self.clip.orientation(frame, joint).angle_between(self.clip.orientation(0, joint))
+        };
+        let poses = joints.flat_map(|&joint| (1..self.clip.frame_count()).map(move |frame| (frame, joint)));
+        poses.map(|(frame, joint)| turn_rad(frame, joint)).fold(0.0, f64::max)
     }
 
     fn turn_without_step(&self) -> Option<Warning> {

@@ -76,12 +76,15 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
 }
 
 /// Removes the frames at both ends in which nothing moves, but for half a second. They stay where the body moves for
-/// less than a stride.
+/// less than a stride; a clip in which nothing moves gets a warning.
 pub(crate) fn drop_held_ends(clip: &mut SourceClip, roles: &Roles) {
     let (count, joints) = (clip.frame_count(), role_joints(roles));
     let step_m = |frame: usize, joint: usize| clip.position(frame, joint).distance(clip.position(frame - 1, joint));
     let moves = |frame: &usize| joints.iter().any(|&joint| step_m(*frame, joint) > SAME_POSE_M);
-    let (Some(first), Some(last)) = ((1..count).find(moves), (1..count).rev().find(moves)) else { return };
+    let (Some(first), Some(last)) = ((1..count).find(moves), (1..count).rev().find(moves)) else {
+        clip.diagnostics.push(Diagnostic::Warning(Warning::PoseFrozen));
+        return;
+    };
     let held = (HELD_MAX_S * clip.frame_rate_hz) as usize;
     let kept = (first - 1).saturating_sub(held)..(last + 1 + held).min(count);
     if ((last + 1 - first) as f64) < REST_MIN_S * clip.frame_rate_hz {

@@ -77,6 +77,17 @@ fn bodies_not_carried_by_level_ground_are_reported() {
 }
 
 #[test]
+fn radians_are_reported() {
+    let found = warning(&rows(|_, row| row[3..].iter_mut().for_each(|angle| *angle = angle.to_radians())));
+    assert!(matches!(found, Warning::RadiansLikely { turned_rad } if turned_rad.to_degrees() < 1.5), "{found:?}");
+}
+
+#[test]
+fn a_frozen_clip_is_reported() {
+    assert_eq!(warning(&rows(|_, row| row.fill(0.0))), Warning::PoseFrozen);
+}
+
+#[test]
 fn frozen_ends_are_not_motion() {
     let text = bvh_text();
     let (head, motion) = text.split_at(text.find("Frames: ").unwrap());
