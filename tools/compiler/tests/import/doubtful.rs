@@ -130,6 +130,37 @@ fn a_walk_at_twice_its_rate_is_inhuman() {
     assert!(!is_inhuman("jog_240", 1.0) && !is_inhuman("run_350", 1.0));
 }
 
+/// A slow walk in inches, whose numbers would be a small child's in centimetres, at a multiple of its frame rate.
+fn slow_walk_in_inches(rate: f64) -> Vec<Diagnostic> {
+    let text = include_str!("../../../../assets/clips/walk_050.bvh");
+    let (skeleton, motion) = text.split_at(text.find("MOTION").unwrap());
+    let inches = |word: &str| word.parse::<f64>().map_or(word.to_owned(), |number| (number / 2.54).to_string());
+    let offsets = skeleton.lines().map(|line| match line.trim_start().strip_prefix("OFFSET") {
+        Some(numbers) => format!("OFFSET {}\n", numbers.split_whitespace().map(inches).collect::<Vec<_>>().join(" ")),
+        None => format!("{line}\n"),
+    });
+    let rows = motion.lines().enumerate().map(|(line, row)| match line {
+        0 | 1 => format!("{row}\n"),
+        2 => format!("Frame Time: {}\n", 1.0 / (30.0 * rate)),
+        _ => {
+            let words: Vec<&str> = row.split(' ').collect();
+            let root: Vec<String> = words[..3].iter().map(|word| inches(word)).collect();
+            format!("{} {}\n", root.join(" "), words[3..].join(" "))
+        }
+    });
+    diagnostics(&offsets.chain(rows).collect::<String>())
+}
+
+#[test]
+fn a_wrong_frame_time_that_hides_the_unit_is_reported() {
+    let is_doubtful = |rate: f64| {
+        let found = slow_walk_in_inches(rate);
+        found.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. })))
+    };
+    // At six times its rate the walk is taken for a small child's in centimetres.
+    assert_eq!([1.0, 2.0, 4.0, 6.0, 10.0].map(is_doubtful), [false, true, true, true, true]);
+}
+
 #[test]
 fn straight_knees_do_not_turn_the_thighs() {
     for (back_deg, aside_deg) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (-4.0, 0.0), (0.0, 5.0), (2.0, -5.0)] {
