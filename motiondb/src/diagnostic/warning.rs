@@ -137,7 +137,7 @@ pub enum Warning {
         /// Number of further jumps in the clip.
         more: u32,
     },
-    /// The body moves, but its joints turn by a sixtieth of what steps take: angles in radians, read as degrees.
+    /// The body moves without a step, and its joints hardly turn: the file's angles seem to be radians.
     RadiansLikely {
         /// Greatest turn of a joint since the first frame, rad.
         turned_rad: f32,

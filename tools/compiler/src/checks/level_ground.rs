@@ -31,9 +31,9 @@ const SLIDE_MIN_MPS: f64 = 0.4;
 const SLIDE_MIN_SHARE: f64 = 0.3;
 /// Least share of the time that feet keep to one slide; below it the slide is noise.
 const STANCE_SHARE_MIN: f64 = 0.3;
-/// Greatest turn of a joint in a body that moves where radians were read as degrees: a turn of 2π is 6.3° then. The pose
-/// of a figure that is pushed does not move at all.
-const RADIANS_AS_DEGREES: RangeInclusive<f64> = 0.2..=std::f64::consts::TAU;
+/// Greatest turn of a joint where radians are read as degrees, degrees: a whole turn, 2π, is 6.3° then. The joints of a
+/// stiff figure that slides do not turn at all.
+const RADIANS_AS_DEGREES_DEG: RangeInclusive<f64> = 0.2..=std::f64::consts::TAU;
 /// Least turn rate of a body that turns without a step, rad/s.
 const TURN_MIN_RAD_S: f64 = 0.25;
 /// Least lift of a foot that steps, m for a person's leg.
@@ -140,12 +140,16 @@ impl GroundCheck<'_> {
         if !stands || slide.length() < SLIDE_MIN_MPS.max(SLIDE_MIN_SHARE * travel.length()) * self.scale.sqrt() {
             return None;
         }
-        let (steps, turned_rad) = (!self.steps.is_empty(), self.greatest_turn_rad());
-        if !steps && RADIANS_AS_DEGREES.contains(&turned_rad.to_degrees()) {
-            return Some(Warning::RadiansLikely { turned_rad: turned_rad as f32 });
-        }
         let [slide_mps, body_mps] = [slide, travel].map(|velocity| velocity.length() as f32);
-        Some(Warning::Skating { body_mps, slide_mps, steps })
+        let skating = Warning::Skating { body_mps, slide_mps, steps: !self.steps.is_empty() };
+        Some(self.radians().unwrap_or(skating))
+    }
+
+    /// Joints that hardly turn in a body that takes no step.
+    fn radians(&self) -> Option<Warning> {
+        let turned_rad = self.steps.is_empty().then(|| self.greatest_turn_rad())?;
+        let is_likely = RADIANS_AS_DEGREES_DEG.contains(&turned_rad.to_degrees());
+        is_likely.then_some(Warning::RadiansLikely { turned_rad: turned_rad as f32 })
     }
 
     /// Greatest turn of a joint since the first frame, rad.
