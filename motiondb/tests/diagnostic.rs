@@ -227,6 +227,21 @@ fn warnings() -> Vec<(Warning, &'static str)> {
             "duplicates of this clip are not searched for: only the 4000 longest clips are compared; compile fewer \
              clips at once",
         ),
+        (
+            Warning::PoseJumps { at_s: 1.0, distance_cm: 32.0, more: 1 },
+            "the pose jumps by 32 cm at 1.00 s, and at one other time by less; no example and no transition is made \
+             across; repair the motion there",
+        ),
+        (
+            Warning::RadiansLikely { turned_rad: 0.02 },
+            "the body moves without a step, and no joint turns by more than 1.1°: the file seems to hold radians; export \
+             it with angles in degrees",
+        ),
+        (
+            Warning::PoseFrozen,
+            "all frames hold the same pose, so a body that stands in it does not move at all; use a clip of a body that \
+             stands at ease",
+        ),
     ]
 }
 
@@ -374,6 +389,9 @@ const NUMBERED: [&[&str]; 3] = [
         "frame_time_doubtful",
         "style_without_example",
         "style_without_stride",
+        "pose_jumps",
+        "radians_likely",
+        "pose_frozen",
     ],
     &[
         "up_contradicted",

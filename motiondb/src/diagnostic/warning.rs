@@ -137,6 +137,13 @@ pub enum Warning {
         /// Number of further jumps in the clip.
         more: u32,
     },
+    /// The body moves without a step, and its joints hardly turn: the file's angles seem to be radians.
+    RadiansLikely {
+        /// Greatest turn of a joint since the first frame, rad.
+        turned_rad: f32,
+    },
+    /// All frames hold the same pose.
+    PoseFrozen,
 }
 
 impl Warning {
@@ -162,6 +169,8 @@ impl Warning {
             Self::FrameTimeDoubtful { .. } => "frame_time_doubtful",
             Self::StyleWithoutExample { .. } => "style_without_example",
             Self::StyleWithoutStride { .. } => "style_without_stride",
+            Self::RadiansLikely { .. } => "radians_likely",
+            Self::PoseFrozen => "pose_frozen",
         }
     }
 }
@@ -233,6 +242,16 @@ impl fmt::Display for Warning {
                 out,
                 "style `{style}` has no stride, so its agents reach no goal; add a steady walk of this style, or state \
                  `style = \"\"` for its clips in a manifest.toml"
+            ),
+            Self::RadiansLikely { turned_rad } => write!(
+                out,
+                "the body moves without a step, and no joint turns by more than {:.1}°: the file seems to hold radians; \
+                 export it with angles in degrees",
+                turned_rad.to_degrees()
+            ),
+            Self::PoseFrozen => out.write_str(
+                "all frames hold the same pose, so a body that stands in it does not move at all; use a clip of a body \
+                 that stands at ease",
             ),
             Self::NotCompared { compared } => write!(
                 out,

@@ -3,7 +3,7 @@
 //! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis
 //! finds no steady stride in them and cannot state why. Clips are in metres, z up.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use glam::{DVec2, DVec3};
 use motiondb::body::Joint;
@@ -31,6 +31,9 @@ const SLIDE_MIN_MPS: f64 = 0.4;
 const SLIDE_MIN_SHARE: f64 = 0.3;
 /// Least share of the time that feet keep to one slide; below it the slide is noise.
 const STANCE_SHARE_MIN: f64 = 0.3;
+/// Greatest turn of a joint where radians are read as degrees, degrees: a whole turn, 2π, is 6.3° then. The joints of a
+/// stiff figure that slides do not turn at all.
+const RADIANS_AS_DEGREES_DEG: RangeInclusive<f64> = 0.2..=std::f64::consts::TAU;
 /// Least turn rate of a body that turns without a step, rad/s.
 const TURN_MIN_RAD_S: f64 = 0.25;
 /// Least lift of a foot that steps, m for a person's leg.
@@ -138,7 +141,25 @@ impl GroundCheck<'_> {
             return None;
         }
         let [slide_mps, body_mps] = [slide, travel].map(|velocity| velocity.length() as f32);
-        Some(Warning::Skating { body_mps, slide_mps, steps: !self.steps.is_empty() })
+        let skating = Warning::Skating { body_mps, slide_mps, steps: !self.steps.is_empty() };
+        Some(self.radians().unwrap_or(skating))
+    }
+
+    /// Joints that hardly turn in a body that takes no step.
+    fn radians(&self) -> Option<Warning> {
+        let turned_rad = self.steps.is_empty().then(|| self.greatest_turn_rad())?;
+        let is_likely = RADIANS_AS_DEGREES_DEG.contains(&turned_rad.to_degrees());
+        is_likely.then_some(Warning::RadiansLikely { turned_rad: turned_rad as f32 })
+    }
+
+    /// Greatest turn of a joint since the first frame, rad.
+    fn greatest_turn_rad(&self) -> f64 {
+        let joints = self.roles.joints.iter().flatten();
+        let turn_rad = |frame: usize, joint: usize| {
+            self.clip.orientation(frame, joint).angle_between(self.clip.orientation(0, joint))
+        };
+        let poses = joints.flat_map(|&joint| (1..self.clip.frame_count()).map(move |frame| (frame, joint)));
+        poses.map(|(frame, joint)| turn_rad(frame, joint)).fold(0.0, f64::max)
     }
 
     fn turn_without_step(&self) -> Option<Warning> {

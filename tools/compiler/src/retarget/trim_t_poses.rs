@@ -29,7 +29,7 @@ const FRAMES_MIN: usize = 11;
 pub(crate) const SPREAD_COSINE: f64 = 0.87;
 /// Cosine between an arm and the shoulder line below which the pose is not a T-pose (45°).
 const LOWERED_COSINE: f64 = 0.71;
-/// Least duration of moving frames without the T-poses, s: a stride.
+/// Least duration of the moving frames that remain, s: a stride.
 const REST_MIN_S: f64 = 1.0;
 /// Duration for which a pose at an end of a clip may be frozen, s: a hand-keyed stop, too short for an idle.
 const HELD_MAX_S: f64 = 0.5;
@@ -76,17 +76,20 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
 }
 
 /// Removes the frames at both ends in which nothing moves, but for half a second. They stay where the body moves for
-/// less than a stride.
+/// less than a stride; a clip in which nothing moves gets a warning.
 pub(crate) fn drop_held_ends(clip: &mut SourceClip, roles: &Roles) {
     let (count, joints) = (clip.frame_count(), role_joints(roles));
     let step_m = |frame: usize, joint: usize| clip.position(frame, joint).distance(clip.position(frame - 1, joint));
     let moves = |frame: &usize| joints.iter().any(|&joint| step_m(*frame, joint) > SAME_POSE_M);
-    let (Some(first), Some(last)) = ((1..count).find(moves), (1..count).rev().find(moves)) else { return };
-    let held = (HELD_MAX_S * clip.frame_rate_hz) as usize;
-    let kept = (first - 1).saturating_sub(held)..(last + 1 + held).min(count);
+    let (Some(first), Some(last)) = ((1..count).find(moves), (1..count).rev().find(moves)) else {
+        clip.diagnostics.push(Diagnostic::Warning(Warning::PoseFrozen));
+        return;
+    };
     if ((last + 1 - first) as f64) < REST_MIN_S * clip.frame_rate_hz {
         return;
     }
+    let held = (HELD_MAX_S * clip.frame_rate_hz) as usize;
+    let kept = (first - 1).saturating_sub(held)..(last + 1 + held).min(count);
     for (frames, end) in [(kept.start, ClipEnd::First), (count - kept.end, ClipEnd::Last)] {
         let cut = Diagnostic::Note(Note::HeldPoseCut { frames: frames as u32, end });
         clip.diagnostics.extend((frames > 0).then_some(cut));

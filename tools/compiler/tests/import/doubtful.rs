@@ -77,6 +77,17 @@ fn bodies_not_carried_by_level_ground_are_reported() {
 }
 
 #[test]
+fn radians_are_reported() {
+    let found = warning(&rows(|_, row| row[3..].iter_mut().for_each(|angle| *angle = angle.to_radians())));
+    assert!(matches!(found, Warning::RadiansLikely { turned_rad } if turned_rad.to_degrees() < 1.5), "{found:?}");
+}
+
+#[test]
+fn a_frozen_clip_is_reported() {
+    assert_eq!(warning(&rows(|_, row| row.fill(0.0))), Warning::PoseFrozen);
+}
+
+#[test]
 fn frozen_ends_are_not_motion() {
     let text = bvh_text();
     let (head, motion) = text.split_at(text.find("Frames: ").unwrap());
@@ -117,6 +128,37 @@ fn a_walk_at_twice_its_rate_is_inhuman() {
     // walk_180 has 133 steps a minute. Race walkers take up to 210.
     assert_eq!([is_inhuman("walk_180", 1.0), is_inhuman("walk_180", 2.0)], [false, true]);
     assert!(!is_inhuman("jog_240", 1.0) && !is_inhuman("run_350", 1.0));
+}
+
+/// A slow walk in inches, whose numbers would be a small child's in centimetres, at a multiple of its frame rate.
+fn slow_walk_in_inches(rate: f64) -> Vec<Diagnostic> {
+    let text = include_str!("../../../../assets/clips/walk_050.bvh");
+    let (skeleton, motion) = text.split_at(text.find("MOTION").unwrap());
+    let inches = |word: &str| word.parse::<f64>().map_or(word.to_owned(), |number| (number / 2.54).to_string());
+    let offsets = skeleton.lines().map(|line| match line.trim_start().strip_prefix("OFFSET") {
+        Some(numbers) => format!("OFFSET {}\n", numbers.split_whitespace().map(inches).collect::<Vec<_>>().join(" ")),
+        None => format!("{line}\n"),
+    });
+    let rows = motion.lines().enumerate().map(|(line, row)| match line {
+        0 | 1 => format!("{row}\n"),
+        2 => format!("Frame Time: {}\n", 1.0 / (30.0 * rate)),
+        _ => {
+            let words: Vec<&str> = row.split(' ').collect();
+            let root: Vec<String> = words[..3].iter().map(|word| inches(word)).collect();
+            format!("{} {}\n", root.join(" "), words[3..].join(" "))
+        }
+    });
+    diagnostics(&offsets.chain(rows).collect::<String>())
+}
+
+#[test]
+fn a_wrong_frame_time_that_hides_the_unit_is_reported() {
+    let is_doubtful = |rate: f64| {
+        let found = slow_walk_in_inches(rate);
+        found.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. })))
+    };
+    // At six times its rate the walk is taken for a small child's in centimetres.
+    assert_eq!([1.0, 2.0, 4.0, 6.0, 10.0].map(is_doubtful), [false, true, true, true, true]);
 }
 
 #[test]
