@@ -22,7 +22,7 @@ const TESTED_M: [f32; 2] = [0.4, 1.4];
 /// Number of bodies, seen well, that make half a picture of a large crowd.
 const HALF_COUNT: f32 = 20.0;
 /// Share of the picture's height at which a body weighs half as much as a large one.
-const HALF_WEIGHT: f32 = 0.14;
+const HALF_WEIGHT: f32 = 0.17;
 /// What a body counts that turns its back.
 const BACK: f32 = 0.65;
 /// What the score loses where edges of the picture cut all bodies.
