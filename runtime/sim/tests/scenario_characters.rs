@@ -84,12 +84,16 @@ fn mistakes_are_shown_at_their_line() {
         let error = parse(&format!("{text}\n{agents}")).unwrap_err();
         assert!(error.contains(words), "{error}");
     }
-    check("[[characters]]\nfile = 'a.glb'\nweight = -1", "x.toml:3: weight is -1");
-    check("[[characters]]\nfile = 'a.glb'\nhue_variation_deg = 400", "hue_variation_deg is 400");
-    check("[[characters]]\nfile = 'a.glb'\nname = '../a'", "cannot name a file");
+    check("[[characters]]\nfile = 'a.glb'\nweight = -1", "x.toml:5: weight is -1");
+    check("[[characters]]\nfile = 'a.glb'\nhue_variation_deg = 400", "x.toml:5: hue_variation_deg is 400");
+    check("[[characters]]\nname = '../a'\nfile = 'a.glb'", "x.toml:4: name \"../a\" cannot name a file");
+    check(
+        "[[characters]]\nfile = 'a.glb'\n[[characters]]\nfile = 'b'\nname = 'a'",
+        "x.toml:7: name `a` is that of two",
+    );
     check(
         "[[characters]]\nfile = 'a.glb'\n[[characters]]\nfile = 'b/a.vrm'",
-        "x.toml:5: two characters have the name `a`",
+        "x.toml:5: name `a` is that of two characters",
     );
     check("[[characters]]\nname = 'a'", "the key `file` is missing");
     check("[[characters]]\nfile = 'a.glb'\nscale = 2", "unknown field `scale`");

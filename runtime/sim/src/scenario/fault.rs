@@ -65,6 +65,8 @@ pub enum ScenarioPart {
     Zone(usize),
     /// A camera, by index.
     Camera(usize),
+    /// A character, by index.
+    Character(usize),
     /// All agents together.
     Agents,
 }

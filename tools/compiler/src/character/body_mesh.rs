@@ -88,16 +88,16 @@ impl<'a> MeshBuilder<'a> {
 
     /// Adds all parts, textures one at a time: a material's parts come together.
     pub(crate) fn add_all(&mut self, parts: Vec<(Instance<'a>, Part)>) -> Result<(), CharacterReason> {
-        let mut room = texture::PIXELS_MAX;
         let texture_of = |instance: &Instance| self.material(instance).and_then(base_texture).map(|(index, _)| index);
         let mut by_texture: BTreeMap<Option<usize>, Vec<(Instance<'a>, Part)>> = BTreeMap::new();
         for (instance, part) in parts {
             by_texture.entry(texture_of(&instance)).or_default().push((instance, part));
         }
+        texture::check_sizes(self.document, self.path, self.outside, by_texture.keys().copied().flatten())?;
         for (index, parts) in by_texture {
             let texture = match index {
                 Some(index) => {
-                    let texture = texture::read(self.document, self.path, self.outside, index, &mut room)?;
+                    let texture = texture::read(self.document, self.path, self.outside, index)?;
                     if texture.is_none() {
                         self.unread.push(texture::name(&self.document.root, index));
                     }

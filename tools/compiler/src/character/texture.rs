@@ -21,7 +21,7 @@ use crate::read::gltf::document::Document;
 /// Greatest width and height, pixels.
 const SIDE_MAX: usize = 8192;
 /// Greatest number of pixels of all textures that are read: six of 8K; they take seconds.
-pub(crate) const PIXELS_MAX: usize = 400 << 20;
+const PIXELS_MAX: usize = 400 << 20;
 /// Greatest length of an encoded image, bytes.
 const ENCODED_MAX_BYTES: usize = 128 << 20;
 /// Greatest memory of a decoder beside its output, bytes.
@@ -37,8 +37,35 @@ pub(crate) struct Texture {
     wraps: [WrappingMode; 2],
 }
 
-/// The texture of a document by index; none where its format is not read. `room` is the number of pixels that may still
-/// be read.
+/// Checks the sizes of textures of a document by their headers, before one is decoded.
+///
+/// # Errors
+/// Where an image is missing, damaged, outside the folder or too large, or all together are too large.
+pub(crate) fn check_sizes(
+    document: &Document,
+    path: &Path,
+    outside: Outside,
+    indices: impl Iterator<Item = usize>,
+) -> Result<(), CharacterReason> {
+    let mut count = 0;
+    for index in indices {
+        let Some(texture) = document.root.textures.get(index) else { continue };
+        let image = texture.source.value();
+        let Some(bytes) = image_bytes(document, path, outside, image)? else { continue };
+        let [width, height] = match format(&bytes) {
+            Some(Format::Png) => guarded(image, || png_header(image, &bytes).map(|(_, size)| size))?,
+            Some(Format::Jpeg) => guarded(image, || jpeg_header(image, &bytes).map(|(_, size)| size))?,
+            None => continue,
+        };
+        count += width * height;
+    }
+    match count <= PIXELS_MAX {
+        true => Ok(()),
+        false => Err(CharacterReason::TooLarge { count: count as u64, what: "pixels in textures", most: PIXELS_MAX }),
+    }
+}
+
+/// The texture of a document by index; none where its format is not read.
 ///
 /// # Errors
 /// Where the image is missing, damaged, outside the folder or too large.
@@ -47,7 +74,6 @@ pub(crate) fn read(
     path: &Path,
     outside: Outside,
     index: usize,
-    room: &mut usize,
 ) -> Result<Option<Texture>, CharacterReason> {
     let root = &document.root;
     let Some(texture) = root.textures.get(index) else { return Ok(None) };
@@ -59,18 +85,26 @@ pub(crate) fn read(
     };
     let sampler = texture.sampler.and_then(|sampler| root.samplers.get(sampler.value()));
     let wraps = sampler.map_or([WrappingMode::Repeat; 2], |sampler| [wrap(&sampler.wrap_s), wrap(&sampler.wrap_t)]);
-    let texture = match bytes.as_slice() {
-        [0x89, b'P', b'N', b'G', ..] => decoded(image, || png_texture(image, &bytes, wraps))?,
-        [0xff, 0xd8, ..] => decoded(image, || jpeg_texture(image, &bytes, wraps))?,
-        _ => return Ok(None),
-    };
-    let pixels = texture.width * texture.height;
-    let count = (PIXELS_MAX - *room + pixels) as u64;
-    match room.checked_sub(pixels) {
-        Some(left) => *room = left,
-        None => return Err(CharacterReason::TooLarge { count, what: "pixels in textures", most: PIXELS_MAX }),
+    match format(&bytes) {
+        Some(Format::Png) => guarded(image, || png_texture(image, &bytes, wraps)).map(Some),
+        Some(Format::Jpeg) => guarded(image, || jpeg_texture(image, &bytes, wraps)).map(Some),
+        None => Ok(None),
     }
-    Ok(Some(texture))
+}
+
+/// Format of an image.
+enum Format {
+    Png,
+    Jpeg,
+}
+
+/// The format that an image begins with; none of those that are not read.
+fn format(bytes: &[u8]) -> Option<Format> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Some(Format::Png),
+        [0xff, 0xd8, ..] => Some(Format::Jpeg),
+        _ => None,
+    }
 }
 
 /// Bytes of an image; none of one that the document does not have.
@@ -103,10 +137,7 @@ fn damaged(index: usize, problem: &str) -> CharacterReason {
 }
 
 /// A decoder's result; an error where it panics.
-fn decoded(
-    index: usize,
-    decode: impl FnOnce() -> Result<Texture, CharacterReason>,
-) -> Result<Texture, CharacterReason> {
+fn guarded<T>(index: usize, decode: impl FnOnce() -> Result<T, CharacterReason>) -> Result<T, CharacterReason> {
     catch_panic::catch(decode).unwrap_or_else(|| Err(damaged(index, "it is damaged")))
 }
 
@@ -117,15 +148,23 @@ fn check_size(index: usize, width: usize, height: usize) -> Result<(), Character
     }
 }
 
-fn png_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<Texture, CharacterReason> {
-    let wrong = |error: png::DecodingError| damaged(index, &error.to_string());
+/// A decoder that has read the size of its image, and width and height.
+type Header<Decoder> = Result<(Decoder, [usize; 2]), CharacterReason>;
+
+fn png_header(index: usize, bytes: &[u8]) -> Header<png::Decoder<Cursor<&[u8]>>> {
     let limits = png::Limits { bytes: DECODER_MAX_BYTES };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     decoder.set_ignore_text_chunk(true);
-    let (width, height) = decoder.read_header_info().map_err(wrong)?.size();
+    let (width, height) = decoder.read_header_info().map_err(|error| damaged(index, &error.to_string()))?.size();
     let (width, height) = (width as usize, height as usize);
     check_size(index, width, height)?;
+    Ok((decoder, [width, height]))
+}
+
+fn png_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<Texture, CharacterReason> {
+    let wrong = |error: png::DecodingError| damaged(index, &error.to_string());
+    let (decoder, [width, height]) = png_header(index, bytes)?;
     let mut reader = decoder.read_info().map_err(wrong)?;
     let length = reader.output_buffer_size().filter(|length| *length <= 4 * SIDE_MAX * SIDE_MAX);
     let mut pixels = vec![0; length.ok_or_else(|| damaged(index, "it is too large"))?];
@@ -134,7 +173,7 @@ fn png_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<T
     sized(index, Texture { width, height, channels, pixels, wraps })
 }
 
-fn jpeg_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<Texture, CharacterReason> {
+fn jpeg_header(index: usize, bytes: &[u8]) -> Header<JpegDecoder<ZCursor<&[u8]>>> {
     // The decoder's own limits come one pixel above ours, which give the better message.
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)
@@ -144,6 +183,11 @@ fn jpeg_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<
     decoder.decode_headers().map_err(|error| damaged(index, &error.to_string()))?;
     let (width, height) = decoder.dimensions().unwrap_or((0, 0));
     check_size(index, width, height)?;
+    Ok((decoder, [width, height]))
+}
+
+fn jpeg_texture(index: usize, bytes: &[u8], wraps: [WrappingMode; 2]) -> Result<Texture, CharacterReason> {
+    let (mut decoder, [width, height]) = jpeg_header(index, bytes)?;
     let pixels = decoder.decode().map_err(|error| damaged(index, &error.to_string()))?;
     let channels = decoder.output_colorspace().map_or(3, |space| space.num_components());
     sized(index, Texture { width, height, channels, pixels, wraps })

@@ -3,7 +3,8 @@
 //! Candidates are all joints i < j < k on one path down from a child of a fork whose two bones are of similar length
 //! and skip only joints that lie on the bones (twist bones, segments, zero-length helpers). Two candidates below
 //! different children of a fork are a pair if their bones are alike. A pair's score is its length times weights of
-//! names, so that shape finds an unnamed skeleton, and names find a skeleton in a stiff pose. Lengths in source units.
+//! names, so that shape finds an unnamed skeleton, and names find a skeleton in a stiff pose; an arm ends where fingers
+//! begin. Lengths in source units.
 
 use motiondb::body::Side;
 
@@ -28,6 +29,10 @@ const MAX_PAIRS_OF_FORK: usize = 512;
 const MAX_PAIRS: usize = 4096;
 /// Weight of a limb that skips a joint whose name is another part, such as Bandai's `UpperArm` beside `Shoulder`.
 const SKIPPED_PART_WEIGHT: f64 = 0.5;
+/// Least number of chains of joints that hang from a hand: fingers.
+const FINGERS_MIN: usize = 3;
+/// Weight of an arm that does not end at such a hand, but beyond it.
+const BEYOND_HAND_WEIGHT: f64 = 0.5;
 /// What each step down the chain adds to the score: of joints at one position the last one carries the bend.
 const DEPTH_BONUS: f64 = 1e-7;
 
@@ -173,8 +178,10 @@ fn limb(rig: &SourceRig, path: &[usize], [start, middle]: [usize; 2], parts: [Bo
     if !fits {
         return None;
     }
-    let weight =
-        skipped_weight(rig, upper) * skipped_weight(rig, lower) * (1.0 + DEPTH_BONUS * (start + middle) as f64);
+    let weight = skipped_weight(rig, upper)
+        * skipped_weight(rig, lower)
+        * beyond_hand_weight(rig, &path[start..end], parts)
+        * (1.0 + DEPTH_BONUS * (start + middle) as f64);
     Some(Limb::of_bones(joints, bones, name_weight(rig, joints, parts) * weight))
 }
 
@@ -220,6 +227,13 @@ fn skipped_weight(rig: &SourceRig, bone: &[usize]) -> f64 {
         !parts.is_empty() && !parts.contains(&BodyPart::Helper) && parts != own
     };
     bone[1..bone.len() - 1].iter().filter(|joint| is_part(joint)).map(|_| SKIPPED_PART_WEIGHT).product()
+}
+
+/// Weight of an arm by the joints above its end: less where one of them has fingers.
+fn beyond_hand_weight(rig: &SourceRig, above: &[usize], parts: [BodyPart; 3]) -> f64 {
+    let chains = |joint: &usize| rig.children[*joint].iter().filter(|child| !rig.children[**child].is_empty()).count();
+    let is_beyond = parts[2] == BodyPart::Hand && above.iter().any(|joint| chains(joint) >= FINGERS_MIN);
+    if is_beyond { BEYOND_HAND_WEIGHT } else { 1.0 }
 }
 
 /// Whether all joints between the two ends lie on the line between them in every sampled frame.

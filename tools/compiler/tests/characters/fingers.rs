@@ -6,8 +6,8 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{ExtraJoint, Joint, RootFrame, Side};
 use motiondb::character::{Character, CharacterFit, EXTRA_VERSION, VERSION, first_fault, from_bytes, to_bytes};
 
-use crate::figure::{Figure, glb};
-use crate::support::{compiled, rest, skeleton};
+use crate::figure::{ADULT, Figure, glb};
+use crate::support::{compiled, joint_name, rest, skeleton};
 use crate::vrm::{VRM_BONES, figure_with_table};
 
 /// Name of the joint that is an extra joint.
@@ -240,6 +240,30 @@ fn bone_tables_of_vrm_name_the_fingers() {
     let character = compiled(&glb(&json, &bytes)).character;
     assert_eq!(first_fault(&character), None);
     assert_eq!(extra_name(&character, ExtraJoint::finger(Side::Left, 1, 1)), "J_26");
+}
+
+#[test]
+fn hands_without_names_are_where_fingers_begin() {
+    let longer = |factor: f32| {
+        let mut figure = Figure::adult().with_fingers();
+        for joint in ADULT.len()..figure.bones.len() {
+            let wrist = if figure.bones[joint].2[0] > 0.0 { 0.7 } else { -0.7 };
+            let along = &mut figure.bones[joint].2[0];
+            *along = wrist + factor * (*along - wrist);
+        }
+        figure
+    };
+    for factor in [1.0, 1.4, 1.8] {
+        let mut figure = longer(factor);
+        for (index, (name, ..)) in figure.bones.iter_mut().enumerate() {
+            *name = Box::leak(format!("J_{index}").into_boxed_str());
+        }
+        let character = compiled(&figure.glb()).character;
+        let mut arms = [Joint::LeftForearm, Joint::LeftHand, Joint::RightForearm, Joint::RightHand]
+            .map(|role| joint_name(&character, role));
+        arms.sort_unstable();
+        assert_eq!(arms, ["J_11", "J_12", "J_7", "J_8"], "fingers {factor} times as long");
+    }
 }
 
 #[test]

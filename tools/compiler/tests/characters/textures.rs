@@ -64,19 +64,42 @@ fn textures_of_other_formats_are_noted() {
     assert!(character.mesh.colours.iter().all(|colour| *colour == [1.0; 3]));
 }
 
-#[test]
-fn texture_bombs_are_rejected_before_they_are_decoded() {
+/// A PNG file that states a size, with the pixels of the checkerboard.
+fn bomb(side: u16) -> Vec<u8> {
     let mut bomb = checkerboard();
+    let [high, low] = side.to_be_bytes();
     // Width and height of the header, and its checksum.
-    bomb[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
+    bomb[16..24].copy_from_slice(&[0, 0, high, low, 0, 0, high, low]);
     let checksum = png_checksum(&bomb[12..29]);
     bomb[29..33].copy_from_slice(&checksum.to_be_bytes());
-    let (json, bytes) = textured(&bomb, [0.5, 0.5]);
+    bomb
+}
+
+#[test]
+fn texture_bombs_are_rejected_before_they_are_decoded() {
+    let (json, bytes) = textured(&bomb(0xffff), [0.5, 0.5]);
     check_rejected(&json, &bytes, "65535 × 65535 pixels, more than 8192 a side");
     let (json, bytes) = textured(&checkerboard()[..60], [0.5, 0.5]);
     check_rejected(&json, &bytes, "image 0");
     let (json, bytes) = textured(&[0xff, 0xd8, 0xff, 0xc0, 0, 17, 8], [0.5, 0.5]);
     check_rejected(&json, &bytes, "image 0");
+}
+
+#[test]
+fn many_large_textures_are_rejected_before_one_is_decoded() {
+    let (mut json, bytes) = textured(&bomb(8192), [0.5, 0.5]);
+    check_rejected(&json, &bytes, "image 0");
+    let primitive = json["meshes"][0]["primitives"][0].clone();
+    let of_material = |material: usize| {
+        let mut primitive = primitive.clone();
+        primitive["material"] = json!(material);
+        primitive
+    };
+    json["textures"] = vec![json!({ "source": 0 }); 40].into();
+    let material = |index: usize| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } });
+    json["materials"] = (0..40).map(material).collect();
+    json["meshes"][0]["primitives"] = (0..40).map(of_material).collect();
+    check_rejected(&json, &bytes, "2684354560 pixels in textures");
 }
 
 /// CRC-32 of PNG, bit by bit.

@@ -1,12 +1,13 @@
 //! How well a lens shows a crowd at a moment, by a picture of some thousand cells: bodies are upright rectangles, walls
 //! are edges with a height. World, metres.
 //!
-//! The score is the mean over bodies of the share that is seen, times weights that grow with the body's size in the
-//! picture, and as it faces the eye. Bodies that the picture's edge cuts lower it.
+//! The score grows with the number of bodies that are seen well, S, as S / (S + constant): some tens fill a picture, and
+//! of a small crowd all are wanted. S is the sum over bodies of the share that is seen, times weights that grow with the
+//! body's size in the picture, and as it faces the eye. Bodies that the picture's edge cuts lower the score.
 
 use glam::Vec2;
 
-use crate::camera::default_camera::crowd::CrowdBody;
+use crate::camera::default_camera::crowd::{CrowdBody, CrowdMoment};
 use crate::camera::default_camera::walls::Walls;
 use crate::visibility::Lens;
 
@@ -18,12 +19,12 @@ const SIDE_MAX: f32 = 256.0;
 const BODY_M: Vec2 = Vec2::new(0.5, 1.75);
 /// Heights at which a body is tested against walls, m: shins and chest.
 const TESTED_M: [f32; 2] = [0.4, 1.4];
-/// Number of bodies of a moment that are tested against walls and counted, about.
-const JUDGED: usize = 40;
+/// Number of bodies, seen well, that make half a picture of a large crowd.
+const HALF_COUNT: f32 = 20.0;
 /// Share of the picture's height at which a body weighs half as much as a large one.
-const HALF_WEIGHT: f32 = 0.1;
+const HALF_WEIGHT: f32 = 0.17;
 /// What a body counts that turns its back.
-const BACK: f32 = 0.8;
+const BACK: f32 = 0.65;
 /// What the score loses where edges of the picture cut all bodies.
 const CUT_LOSS: f32 = 0.6;
 /// Least part of a body beyond an edge that cuts it, of its height or breadth.
@@ -41,13 +42,13 @@ pub(super) fn coarse_size_px(size_px: [u32; 2]) -> [u32; 2] {
     [width, height].map(|side| (scale * side).round().clamp(1.0, SIDE_MAX) as u32)
 }
 
-/// How well a lens shows bodies between walls, 0 to 1; 0 from within a wall.
-pub(super) fn score(lens: &Lens, walls: &Walls, bodies: &[CrowdBody]) -> f32 {
+/// How well a lens shows a crowd between walls, 0 to 1; 0 from within a wall.
+pub(super) fn score(lens: &Lens, walls: &Walls, moment: &CrowdMoment) -> f32 {
+    let bodies = &moment.bodies;
     if walls.hold(lens.eye_m) {
         return 0.0;
     }
     let seen = SeenBodies::new(lens, bodies);
-    let step = bodies.len().div_ceil(JUDGED).max(1);
     let value = |index: usize| {
         let share = seen.share(index);
         if share == 0.0 {
@@ -62,11 +63,13 @@ pub(super) fn score(lens: &Lens, walls: &Walls, bodies: &[CrowdBody]) -> f32 {
         let weight = height * height / (height * height + HALF_WEIGHT * HALF_WEIGHT);
         weight * facing * share * free as f32 / TESTED_M.len() as f32
     };
-    let judged = (0..bodies.len()).step_by(step);
-    let mean = judged.clone().map(value).sum::<f32>() / judged.len().max(1) as f32;
+    let mean = (0..bodies.len()).map(value).sum::<f32>() / bodies.len().max(1) as f32;
+    let present = moment.present as f32;
+    // 1 where all are seen well.
+    let count = mean * (present + HALF_COUNT) / (mean * present + HALF_COUNT);
     let whole = 1.0 - CUT_LOSS * seen.cut_share;
     let balance = 1.0 - UNBALANCED_LOSS * seen.middle.abs().max_element();
-    mean * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD)
+    count * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD)
 }
 
 /// Bodies in a coarse picture, without walls.
@@ -182,7 +185,8 @@ mod tests {
     fn score_facing(scenario: &Scenario, positions_m: &[Vec2], ahead: Vec2) -> f32 {
         let bodies: Vec<CrowdBody> =
             positions_m.iter().map(|position_m| CrowdBody { position_m: *position_m, ahead }).collect();
-        score(&lens(), &Walls::new(scenario), &bodies)
+        let moment = CrowdMoment { time_s: 0.0, centre_m: Vec2::ZERO, present: bodies.len(), bodies };
+        score(&lens(), &Walls::new(scenario), &moment)
     }
 
     fn score_of(scenario: &Scenario, positions_m: &[Vec2]) -> f32 {
@@ -203,7 +207,17 @@ mod tests {
         assert!(behind < 1e-6, "{behind}");
         // A kerb hides the shins only.
         scenario.obstacle_heights_m = vec![Some(0.8)];
-        assert!((score_of(&scenario, &[Vec2::ZERO]) / alone - 0.5).abs() < 1e-3);
+        assert!((score_of(&scenario, &[Vec2::ZERO]) / alone - 0.5).abs() < 0.02);
+    }
+
+    #[test]
+    fn some_tens_of_bodies_fill_the_picture_of_a_large_crowd() {
+        let walls = Scenario::of(Vec::new());
+        let seen: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.5 * f32::from(index as u8) - 1.75, 0.0)).collect();
+        // As many again, and ten times as many, behind the eye.
+        let score_with = |hidden: usize| score_of(&walls, &[seen.clone(), vec![Vec2::new(0.0, -9.0); hidden]].concat());
+        let [all, half, tenth] = [0, 8, 72].map(score_with);
+        assert!(half > 0.55 * all && tenth > 0.2 * all && tenth < half, "{all}, {half}, {tenth}");
     }
 
     #[test]
@@ -211,7 +225,7 @@ mod tests {
         let scenario = Scenario::of(Vec::new());
         let middle = score_of(&scenario, &[Vec2::ZERO]);
         let back = score_facing(&scenario, &[Vec2::ZERO], Vec2::Y);
-        assert!((back / middle - BACK).abs() < 1e-3, "{back}, {middle}");
+        assert!((back / middle - BACK).abs() < 0.02, "{back}, {middle}");
         let [aside, cut] = [2.4, 3.1].map(|x| score_of(&scenario, &[Vec2::new(x, 0.0)]));
         assert!(aside < 0.8 * middle && cut < 0.5 * aside, "{middle}, {aside}, {cut}");
     }

@@ -29,9 +29,9 @@ pub(super) fn best_path(
         let reach_m = (SPEED_MPS * (moments[1].time_s - moments[0].time_s)) as f32;
         let before = |to: usize| {
             let sum = |from: usize| {
-                let (from_m, to_m) = (candidates[from].offset_m, candidates[to].offset_m);
-                let way_m = from_m.distance(to_m);
-                let cost = TURN_COST * way_m / (0.5 * (from_m.length() + to_m.length()));
+                let [a, b] = [from, to].map(|at| &candidates[at]);
+                let way_m = a.offset_m.distance(b.offset_m);
+                let cost = TURN_COST * way_m / a.distance_m.midpoint(b.distance_m);
                 if way_m > reach_m { f32::NEG_INFINITY } else { sums[from] - cost }
             };
             let eye_m = |moment: usize, at: usize| moments[moment].centre_m.extend(0.0) + candidates[at].offset_m;

@@ -10,7 +10,7 @@ use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use crate::camera::default_camera::candidates::{Candidate, ELEVATION_COUNT, candidates};
+use crate::camera::default_camera::candidates::{Candidate, ELEVATION_COUNT, candidates, candidates_of_parts};
 use crate::camera::default_camera::coarse_picture::{self, coarse_size_px};
 use crate::camera::default_camera::crowd::{CrowdMoment, filmed_moving, filmed_still, read_moments, thinned};
 use crate::camera::default_camera::path::best_path;
@@ -70,17 +70,17 @@ fn best_camera(scenario: &Scenario, moments: Vec<CrowdMoment>, size_px: [u32; 2]
 }
 
 impl Filmed<'_> {
-    fn candidates(&self) -> Vec<Candidate> {
+    /// Positions by which places are framed, from the middle of the crowd, m.
+    fn framed_offsets_m(&self) -> Vec<Vec2> {
         let offsets_m = |moment: &CrowdMoment| -> Vec<Vec2> {
             moment.bodies.iter().map(|body| body.position_m - moment.centre_m).collect()
         };
-        let framed_m: Vec<Vec2> = thinned(&self.moments, FRAMED).iter().flat_map(offsets_m).collect();
-        candidates(&framed_m, self.size_px)
+        thinned(&self.moments, FRAMED).iter().flat_map(offsets_m).collect()
     }
 
     /// The best candidate for all moments.
     fn best_place(&self) -> Choice {
-        let candidates = self.candidates();
+        let candidates = candidates_of_parts(&self.framed_offsets_m(), self.size_px);
         let few = self.few();
         let scores: Vec<f32> = candidates.par_iter().map(|candidate| few.score(candidate)).collect();
         let mut finalists: Vec<usize> = Vec::new();
@@ -99,9 +99,8 @@ impl Filmed<'_> {
     /// The best candidates along the way of the crowd, with one focal length. At each moment they aim at its bodies.
     fn best_path(&self) -> Choice {
         let (place, _) = self.best_place();
-        let Some(Candidate { share, framing, .. }) = place.first().copied() else { return (Vec::new(), 0.0) };
-        let mut candidates = self.candidates();
-        candidates.retain(|candidate| candidate.share == share);
+        let Some(Candidate { framing, .. }) = place.first().copied() else { return (Vec::new(), 0.0) };
+        let mut candidates = candidates(&self.framed_offsets_m(), self.size_px);
         candidates.iter_mut().for_each(|candidate| candidate.framing.focal_mm = framing.focal_mm);
         let few = thinned(&self.moments, [self.moments.len().max(1), COARSE[1]]);
         let aimed = |at: usize| -> Vec<Candidate> {
@@ -137,7 +136,7 @@ impl Filmed<'_> {
     /// Logarithm of the score of a candidate at a moment.
     fn logarithm(&self, candidate: &Candidate, moment: &CrowdMoment) -> f32 {
         let lens = candidate.framing.lens(eye_m(moment, candidate), self.size_px);
-        libm::logf(candidate.weight * coarse_picture::score(&lens, self.walls, &moment.bodies) + UNSEEN)
+        libm::logf(candidate.weight * coarse_picture::score(&lens, self.walls, moment) + UNSEEN)
     }
 
     /// The camera of a path: smooth where no wall is in its way, else in straight lines; none where a wall is in their way, too.
@@ -164,7 +163,7 @@ impl Filmed<'_> {
         let camera = CameraSpec { name: DEFAULT_NAME.to_owned(), ..CameraSpec::default() };
         let key = |(moment, candidate): (&CrowdMoment, &Candidate)| {
             let eye_m = eye_m(moment, candidate);
-            let look_at_m = eye_m + candidate.offset_m.length() * candidate.framing.direction;
+            let look_at_m = eye_m + candidate.distance_m * candidate.framing.direction;
             CameraKey { time_s: moment.time_s as f32, eye_m, look_at_m, up: None }
         };
         let keys: Vec<CameraKey> = self.moments.iter().zip(choice).map(key).collect();
@@ -211,6 +210,7 @@ mod tests {
         let moment = |(index, positions_m): (usize, &Vec<Vec2>)| CrowdMoment {
             time_s: index as f64,
             centre_m: Vec2::ZERO,
+            present: positions_m.len(),
             bodies: positions_m.iter().map(body).collect(),
         };
         best_camera(scenario, moments_m.iter().enumerate().map(moment).collect(), SIZE_PX)

@@ -9,22 +9,19 @@ use crate::scenario::ranges::{RADIUS_M, check_name, within};
 /// Greatest weight of a character.
 const WEIGHT_MAX: f32 = 1e6;
 
-/// Checks all characters; an error comes with the index of its character.
-pub(crate) fn check_characters(characters: &[CharacterSpec]) -> Result<(), (usize, ScenarioFault)> {
-    let part = &ScenarioPart::Agents;
-    let count = characters.len();
-    within(part, "the number of characters", count, &(0..=CHARACTERS_MAX), "give fewer").map_err(|fault| (0, fault))?;
-    for (index, spec) in characters.iter().enumerate() {
-        check_character(spec, &characters[..index]).map_err(|fault| (index, fault))?;
-    }
-    Ok(())
+/// Checks all characters.
+pub(crate) fn check_characters(characters: &[CharacterSpec]) -> Result<(), ScenarioFault> {
+    let (part, count) = (&ScenarioPart::Character(0), characters.len());
+    within(part, "the number of characters", count, &(0..=CHARACTERS_MAX), "give fewer")?;
+    (0..count).try_for_each(|index| check_character(&ScenarioPart::Character(index), &characters[..=index]))
 }
 
-fn check_character(spec: &CharacterSpec, before: &[CharacterSpec]) -> Result<(), ScenarioFault> {
-    let part = &ScenarioPart::Agents;
-    check_name(&spec.name)?;
+/// Checks the last of some characters.
+fn check_character(part: &ScenarioPart, characters: &[CharacterSpec]) -> Result<(), ScenarioFault> {
+    let Some((spec, before)) = characters.split_last() else { return Ok(()) };
+    check_name(&spec.name).or_else(|fault| part.fault(format!("name {}", fault.message), fault.help))?;
     if before.iter().any(|other| other.name == spec.name) {
-        return part.fault(format!("two characters have the name `{}`", spec.name), "choose another `name`");
+        return part.fault(format!("name `{}` is that of two characters", spec.name), "choose another `name`");
     }
     within(part, "weight", spec.weight, &(0.0..=WEIGHT_MAX), "give a share relative to the other characters")?;
     if !spec.size.as_ref().is_none_or(is_sound) {

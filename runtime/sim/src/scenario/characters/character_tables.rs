@@ -43,16 +43,10 @@ pub struct CharacterFile {
     pub hide: Vec<String>,
 }
 
-/// The characters of all tables; a broken rule is shown at its table.
-pub(crate) fn characters(
-    source: &SourceText,
-    tables: &[Spanned<CharacterTable>],
-) -> Result<Vec<CharacterSpec>, ScenarioError> {
+/// The characters of all tables.
+pub(crate) fn characters(tables: &[Spanned<CharacterTable>]) -> Result<Vec<CharacterSpec>, ScenarioFault> {
     let specs: Vec<CharacterSpec> = tables.iter().map(|table| spec(table.get_ref())).collect();
-    check_characters(&specs).map_err(|(index, ScenarioFault { message, help, .. })| {
-        let span = tables.get(index).map_or(0..0, Spanned::span);
-        source.invalid(span, message, help)
-    })?;
+    check_characters(&specs)?;
     Ok(specs)
 }
 

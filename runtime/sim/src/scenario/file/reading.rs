@@ -71,7 +71,8 @@ fn resolve(
     let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
-    let characters = characters(source, &file.characters)?;
+    let characters = characters(&file.characters)
+        .map_err(|fault| at_key(source, character_span(&file, &fault.part), fault.message, fault.help))?;
     let styles = file.styles();
     let mut profiles = Profiles::new(&file.profiles, &characters, &styles, source)?;
     let zones = zones(source, &file.zones, &mut profiles, &states)?;
@@ -180,9 +181,7 @@ impl ScenarioTexts<'_> {
         {
             return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
         }
-        let table = self.span(placed, &fault.part);
-        let span = key_span(&self.source.text, &table, &fault.message).unwrap_or(table);
-        self.source.invalid(span, fault.message, fault.help).into()
+        at_key(self.source, self.span(placed, &fault.part), fault.message, fault.help)
     }
 
     fn span(&self, placed: &PlacedAgents, part: &ScenarioPart) -> Range<usize> {
@@ -214,15 +213,30 @@ impl ScenarioTexts<'_> {
             | ScenarioPart::Event(_) => behaviour.span(part),
             ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Camera(index) => file.cameras().nth(index).map_or(0..0, Spanned::span),
+            ScenarioPart::Character(_) => character_span(file, part),
             ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
         }
     }
 }
 
+/// The bytes of the table of a character.
+fn character_span(file: &ScenarioFile, part: &ScenarioPart) -> Range<usize> {
+    match *part {
+        ScenarioPart::Character(index) => file.characters.get(index).map_or(0..0, Spanned::span),
+        _ => 0..0,
+    }
+}
+
+/// A mistake in a table, shown at the key that its message begins with, or else at the table.
+pub(super) fn at_key(source: &SourceText, table: Range<usize>, message: String, help: &str) -> ScenarioError {
+    let span = key_span(&source.text, &table, &message).unwrap_or(table);
+    source.invalid(span, message, help).into()
+}
+
 /// The bytes of the key that a message begins with (`focal_mm is 0`, `y of eye_m is NaN`, `` `up` is … ``), in the table
 /// that begins at some bytes; none where the table has no such key.
-pub(super) fn key_span(text: &str, table: &Range<usize>, message: &str) -> Option<Range<usize>> {
+fn key_span(text: &str, table: &Range<usize>, message: &str) -> Option<Range<usize>> {
     let is_of_key = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
     let of_axis = message.split_once(" of ").filter(|(axis, _)| axis.len() == 1);
     let message = of_axis.map_or(message, |(_, rest)| rest).trim_start_matches('`');

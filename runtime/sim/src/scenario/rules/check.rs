@@ -61,7 +61,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_measures(scenario)?;
     check_zones(scenario)?;
     check_markings(scenario)?;
-    check_characters(&scenario.characters).map_err(|(_, fault)| fault)?;
+    check_characters(&scenario.characters)?;
     check_heights(&scenario.obstacle_heights_m)?;
     check_cameras(&scenario.cameras)?;
     check_followed(scenario)?;

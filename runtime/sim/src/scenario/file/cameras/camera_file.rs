@@ -18,7 +18,7 @@ use toml::Spanned;
 
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::file::reading::{key_span, parse, read_text};
+use crate::scenario::file::reading::{at_key, parse, read_text};
 use crate::scenario::file::scenario_file;
 use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::ranges::check_view;
@@ -96,8 +96,7 @@ impl CameraTables {
             ScenarioPart::Camera(index) => self.cameras().nth(index).map_or(0..0, Spanned::span),
             _ => self.view.as_ref().map_or(0..0, Spanned::span),
         };
-        let span = key_span(&source.text, &table, &fault.message).unwrap_or(table);
-        source.invalid(span, fault.message, fault.help).into()
+        at_key(source, table, fault.message, fault.help)
     }
 }
 

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::cameras::camera_file::{CameraTables, is_scenario};
-use crate::scenario::file::reading::{key_span, read_text};
+use crate::scenario::file::reading::{at_key, read_text};
 use crate::scenario::file::scenario_file::ScenarioFile;
 
 /// A mistake of a camera, by its index, that is found outside its file: shown at the line of the key that the message
@@ -19,8 +19,7 @@ pub fn camera_mistake(path: &Path, camera: usize, message: String, help: &str) -
             false => CameraTables::parse(&source)?.cameras().map(Spanned::span).collect(),
         };
         let table = spans.get(camera).cloned().unwrap_or(0..0);
-        let span = key_span(&source.text, &table, &message).unwrap_or(table);
-        Ok(source.invalid(span, message, help).into())
+        Ok(at_key(&source, table, message, help))
     };
     pointed().unwrap_or_else(|error| error)
 }
