@@ -18,7 +18,7 @@ pub(crate) const STANCE: Rgb = Rgb::new(0.76, 0.08, 0.56);
 /// Colour of a half-plane or force, by its source.
 pub(crate) fn source_colour(source: HalfPlaneSource) -> Rgb {
     match source {
-        HalfPlaneSource::Obstacle(_) | HalfPlaneSource::OneWay(_) => OBSTACLE_RIM,
+        HalfPlaneSource::Obstacle(_) | HalfPlaneSource::OneWay(_) | HalfPlaneSource::Queue => OBSTACLE_RIM,
         HalfPlaneSource::Stance => STANCE,
         HalfPlaneSource::SharpTurn => SHARP_TURN_EDGES,
         HalfPlaneSource::TurningHull => TURNING_SET,
@@ -36,6 +36,7 @@ pub(crate) fn source_name(source: HalfPlaneSource) -> String {
         HalfPlaneSource::SharpTurn => "sharp turn".to_owned(),
         HalfPlaneSource::TurningHull => "turning set".to_owned(),
         HalfPlaneSource::HoldingHull => "holding set".to_owned(),
+        HalfPlaneSource::Queue => "queue".to_owned(),
         HalfPlaneSource::Agent(agent) => agent.to_string(),
     }
 }

@@ -6,6 +6,7 @@ use glam::Vec2;
 
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::McnParams;
+use crate::planning::mcn::queueing::queue_half_plane;
 use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane, shares};
 use crate::planning::orca::half_plane::HalfPlane;
 use crate::planning::orca::wall_half_planes::wall_half_planes;
@@ -28,7 +29,7 @@ const PARTING_MIN_S: f32 = 0.05;
 /// corner that its disc grazes. With it, walls hold no disc in `fbcrowd bench course`.
 const WALL_MARGIN_M: f32 = 0.012;
 
-/// Eq. 12: computes the half-planes of walls and agents into the memory.
+/// Eq. 12: computes the half-planes of walls and agents, and of the queue, into the memory.
 pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) {
     let own = world.disc(agent);
     memory.of_walls.clear();
@@ -51,6 +52,9 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
+    if params.parts.queueing {
+        memory.of_agents.extend(queue_half_plane(world, agent, neighbours.as_slice(), &weights));
+    }
 }
 
 /// τ against each neighbour, s. One that stands is a wall, and is avoided no earlier: at rest it bounds the approach to

@@ -17,7 +17,7 @@ pub(crate) struct McnMemory {
     pub(crate) forward: Vec2,
     /// C_iW: half-planes of walls, which the programs of both velocity sets share.
     pub(crate) of_walls: Vec<HalfPlane>,
-    /// C_ij: half-planes of agents, which the programs of both velocity sets share.
+    /// C_ij: half-planes of agents and of the queue, which the programs of both velocity sets share.
     pub(crate) of_agents: Vec<HalfPlane>,
     /// Half-planes of each velocity set's program, by rank.
     pub(crate) programs: [Vec<HalfPlane>; 2],

@@ -29,6 +29,8 @@ pub struct McnParts {
     pub back_pedalling: bool,
     /// Whether agents keep right, which resolves symmetric encounters.
     pub keep_right: bool,
+    /// Whether agents that queue hold their place.
+    pub queueing: bool,
 }
 
 /// How the stance foot limits the velocity (§4.2).
@@ -55,6 +57,7 @@ impl Default for McnParts {
             orientation: true,
             back_pedalling: true,
             keep_right: true,
+            queueing: true,
         }
     }
 }

@@ -244,6 +244,21 @@ fn adaptation_and_keeping_right_matter_in_an_encounter() {
     check_switch(&encounter(), &Scene::new(&[[0.0, 0.0]]), |parts| parts.keep_right = false);
 }
 
+/// An agent that stands; the next one stands close ahead, goes in a direction, and steps back.
+fn pushed_back(way: Vec2) -> Scene {
+    let mut scene = Scene::new(&[[0.0, 0.0], [0.52, 0.0]]);
+    scene.velocities_mps = vec![Vec2::ZERO, -0.3 * WALK];
+    scene.preferred_mps[1] = way;
+    scene
+}
+
+#[test]
+fn an_agent_holds_its_place_in_a_queue_alone() {
+    check_switch(&pushed_back(WALK), &pushed_back(WALK.perp()), |parts| parts.queueing = false);
+    let [queues, meets] = [WALK, -WALK].map(|way| pushed_back(way).plan().velocity_mps.x);
+    assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
+}
+
 #[test]
 fn the_density_filter_matters_in_a_crowd() {
     check_switch(&dense(), &encounter(), |parts| parts.density_filter = false);
@@ -321,7 +336,7 @@ fn orientation_and_back_pedalling_matter_at_held_facing() {
     check_switch(&aside, &alone(WALK), |parts| parts.orientation = false);
     let mut back = Scene::new(&[[0.0, 0.0], [0.55, 0.0]]);
     back.velocities_mps = vec![Vec2::ZERO, Vec2::new(-0.6, 0.0)];
-    back.preferred_mps[0] = Vec2::new(0.3, 0.0);
+    back.preferred_mps = vec![Vec2::new(0.3, 0.0), -WALK];
     check_switch(&back, &aside, |parts| parts.back_pedalling = false);
 }
 
@@ -337,6 +352,7 @@ fn without_its_parts_mcn_is_orca() {
         orientation: false,
         back_pedalling: false,
         keep_right: false,
+        queueing: false,
     };
     for mut scene in [encounter(), dense(), pressed()] {
         scene.velocities_mps[1..].iter_mut().for_each(|velocity_mps| *velocity_mps *= 1.2);

@@ -22,6 +22,8 @@ pub enum HalfPlaneSource {
     HoldingHull,
     /// A one-way zone that holds the agent, by index.
     OneWay(u32),
+    /// The queue that the agent waits in.
+    Queue,
     /// Another agent, by index: C_ij (§4.4).
     Agent(u32),
 }

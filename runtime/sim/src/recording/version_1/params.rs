@@ -150,6 +150,7 @@ impl From<McnPartsV1> for McnParts {
             orientation: parts.orientation,
             back_pedalling: parts.back_pedalling,
             keep_right: parts.keep_right,
+            queueing: false,
         }
     }
 }

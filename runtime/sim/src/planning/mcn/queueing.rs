@@ -1,0 +1,48 @@
+//! Queueing: an agent that waits behind others holds its place. `FbCrowd` does not have it.
+//!
+//! Agents that arrive at a queue approach those that stand there, and by equal shares these give way, also backward and
+//! by metres. People who wait do not. So where the agents ahead go where the agent goes, a half-plane forbids velocities
+//! against v_pref. It yields as those of agents do, so that overlapping discs still part. Where streams cross, the agents
+//! ahead go elsewhere, and it has no weight: jams dissolve by stepping back.
+//!
+//! With the directions e of the preferred velocities, the urgency w_j of a neighbour j (`avoidance`), and the share a_j of
+//! its offset along e_i, its weight is
+//!
+//! ```text
+//! W·max(0, Σ_j w_j·a_j·(e_i·e_j) / Σ_j w_j·a_j)².
+//! ```
+//!
+//! World axes.
+
+use glam::Vec2;
+
+use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
+use crate::planning::world_view::WorldView;
+use crate::world::neighbours::Neighbour;
+use crate::world::neighbours::neighbour_lanes::Lanes;
+
+/// W: weight of the half-plane where all agents ahead go the same way; that of an agent in contact is 1.
+const WEIGHT: f32 = 0.7;
+/// Weight below which there is no half-plane.
+const WEIGHT_MIN: f32 = 0.02;
+
+/// The half-plane of an agent that queues behind its neighbours, given their urgencies; none where it does not queue.
+pub(crate) fn queue_half_plane(
+    world: &WorldView,
+    agent: usize,
+    neighbours: &[Neighbour],
+    urgencies: &Lanes,
+) -> Option<HalfPlane> {
+    let way = |agent: usize| world.preferred_mps[agent].normalize_or_zero();
+    let own_way = way(agent);
+    let (mut alike, mut all) = (0.0, 0.0_f32);
+    for (neighbour, urgency) in neighbours.iter().zip(urgencies) {
+        let ahead = urgency * own_way.dot(neighbour.offset_m.normalize_or_zero()).max(0.0);
+        alike += ahead * own_way.dot(way(neighbour.agent as usize));
+        all += ahead;
+    }
+    let share = if all > 0.0 { (alike / all).max(0.0) } else { 0.0 };
+    let weight = WEIGHT * share * share;
+    let half_plane = HalfPlane::behind(Vec2::ZERO, -own_way, HalfPlaneSource::Queue);
+    (weight > WEIGHT_MIN).then_some(HalfPlane { weight, ..half_plane })
+}
