@@ -63,11 +63,11 @@ fn farthest_off(path: &Path, clip: &str, human: &HumanClip, joints: &[Joint]) ->
     let clip = source(path, clip);
     let roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
     let (clip, _) = units::to_metres_z_up(clip, &roles);
-    let dropped = clip.frame_count() - human.frames.len();
     let mut farthest: f64 = 0.0;
     for (frame, pose) in human.frames.iter().enumerate() {
         let posed = pose.forward_kinematics(&human.body);
-        let source = |joint: Joint| roles.joints[joint.index()].map(|joint| clip.position(frame + dropped, joint));
+        let source =
+            |joint: Joint| roles.joints[joint.index()].map(|joint| clip.position(human.first_frame + frame, joint));
         let hips = 0.5 * Joint::THIGHS.map(|hip| source(hip).unwrap()).into_iter().sum::<DVec3>();
         for &joint in joints {
             let Some(wanted) = source(joint) else { continue };
