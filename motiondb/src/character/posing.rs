@@ -18,7 +18,7 @@
 use glam::{Quat, Vec3};
 
 use crate::body::two_bone_reach::{EXTENSION_MAX, TwoBones, reach};
-use crate::body::{JOINT_COUNT, Joint, Joints, RootFrame, Skeleton};
+use crate::body::{JOINT_COUNT, Joint, Joints, RootFrame, Side, Skeleton};
 use crate::character::fit::CharacterFit;
 use crate::character::model::CharacterFoot;
 use crate::character::trunk_room::outward;
@@ -133,9 +133,9 @@ impl CharacterFit<'_> {
         let (upright, middle_m) = (posed.rotations[pelvis], posed.positions_m[pelvis]);
         let to_bind =
             |position_m: Vec3| upright.conjugate() * (position_m - middle_m) / self.scale + self.bind_m(Joint::Pelvis);
-        for (side, first) in [Joint::LeftUpperArm, Joint::RightUpperArm].into_iter().enumerate() {
+        for (side, first) in Joint::UPPER_ARMS.into_iter().enumerate() {
             let arm = [0, 1, 2].map(|bone| Joint::ALL[first.index() + bone]);
-            let to_side = Vec3::new(1.0, if side == 0 { 1.0 } else { -1.0 }, 1.0);
+            let to_side = Vec3::new(1.0, Side::BOTH[side].sign(), 1.0);
             let arm_m = arm.map(|role| to_side * to_bind(posed.positions_m[role.index()]));
             let turn_rad = self.trunk_room.turn_rad(arm_m);
             if turn_rad > 0.0 {

@@ -5,7 +5,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 
-use crate::body::Joint;
+use crate::body::{Joint, Side};
 use crate::character::model::Character;
 
 /// Roles that move the trunk.
@@ -77,7 +77,7 @@ impl TrunkRoom {
 
 /// The rotation that turns the arm of a side outward about an axis that points forward.
 pub(crate) fn outward(forward: Vec3, turn_rad: f32, side: usize) -> Quat {
-    Quat::from_axis_angle(forward, if side == 0 { turn_rad } else { -turn_rad })
+    Quat::from_axis_angle(forward, Side::BOTH[side].sign() * turn_rad)
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ const SIDES_MAX: usize = 8;
 /// Distance beyond which a side does not count, m: what an arm reaches that hangs or swings.
 const REACH_M: f32 = 0.5;
 
-/// The sides of an agent that something stands at, the nearest eight, in no order.
+/// The sides at which something stands near an agent: the nearest eight, in no order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ElbowRoom {
     sides: [RoomSide; SIDES_MAX],
@@ -29,19 +29,6 @@ pub struct RoomSide {
     pub towards: Vec2,
     /// Distance of the half-plane's border from the agent's centre, m.
     pub distance_m: f32,
-}
-
-impl RoomSide {
-    /// Overlap with the border from which on a body yields by the whole of it, m. It begins to yield as far before the
-    /// border, so that it moves without a jerk.
-    const SOFT_M: f32 = 0.06;
-
-    /// Distance by which a point with a radius should come in, m.
-    pub(crate) fn yielded_m(&self, point_m: Vec2, radius_m: f32) -> f32 {
-        let over_m = self.towards.dot(point_m) + radius_m - self.distance_m;
-        let begun_m = (over_m + Self::SOFT_M).clamp(0.0, 2.0 * Self::SOFT_M);
-        begun_m * begun_m / (4.0 * Self::SOFT_M) + (over_m - Self::SOFT_M).max(0.0)
-    }
 }
 
 impl ElbowRoom {
@@ -108,26 +95,16 @@ mod tests {
     }
 
     #[test]
-    fn a_body_yields_gradually_by_the_whole_overlap() {
-        let yielded_m = |over_m: f32| room([0.3]).sides()[0].yielded_m(Vec2::new(0.25 + over_m, 1.0), 0.05);
-        let soft_m = RoomSide::SOFT_M;
-        assert_eq!(yielded_m(-soft_m), 0.0);
-        assert!([1.0, 2.0].into_iter().all(|over| (yielded_m(over * soft_m) - over * soft_m).abs() < 1e-6));
-        let slopes: Vec<f32> = (-12..24)
-            .map(|step| 0.1 * soft_m * step as f32)
-            .map(|over_m| (yielded_m(over_m + 1e-3) - yielded_m(over_m)) / 1e-3)
-            .collect();
-        assert!(slopes.is_sorted_by(|a, b| (-1e-3..0.1).contains(&(b - a))), "{slopes:?}");
-    }
-
-    #[test]
     fn borders_stay_where_they_are_in_other_frames() {
         let (room, point_m) = (room([0.3]), Vec2::new(0.2, 0.1));
         let [origin_m, forward] = [Vec2::new(-0.4, 0.7), Vec2::new(0.6, 0.8)];
         let seen_m = Vec2::new(forward.x, -forward.y).rotate(point_m - origin_m);
-        let yielded_m = |room: &ElbowRoom, point_m: Vec2| room.sides()[0].yielded_m(point_m, 0.2);
+        let clear_m = |room: &ElbowRoom, point_m: Vec2| {
+            let RoomSide { towards, distance_m } = room.sides()[0];
+            distance_m - towards.dot(point_m)
+        };
         let seen = room.seen_from(origin_m, forward);
-        assert!((yielded_m(&seen, seen_m) - yielded_m(&room, point_m)).abs() < 1e-6);
+        assert!((clear_m(&seen, seen_m) - clear_m(&room, point_m)).abs() < 1e-6);
         assert!((room.scaled(2.0).sides()[0].distance_m - 0.6).abs() < 1e-6);
     }
 }

@@ -2,13 +2,14 @@
 //!
 //! Enters: [`WorldView`], the frozen state of agents, walls and stance feet. Leaves: one [`Plan`] per agent.
 //!
-//! Read `plan` and `world_view`, then `surroundings` (the neighbours and walls near one agent), `elbow_room` (what they
-//! leave to its body) and `planner`, which chooses between [`mcn`] (the paper's) and the [`baselines`]. [`orca`] holds the
+//! Read `plan` and `world_view`, then `surroundings` (the neighbours and walls near one agent), `elbow_room` and `gap` (what
+//! they leave to its body) and `planner`, which chooses between [`mcn`] (the paper's) and the [`baselines`]. [`orca`] holds the
 //! half-planes and linear programs that they share, `plan_all` plans a crowd, `plan_explanation` shows why a velocity was
 //! planned.
 
 pub mod baselines;
 pub(crate) mod elbow_room;
+pub(crate) mod gap;
 pub mod mcn;
 pub mod orca;
 pub(crate) mod plan;

@@ -164,6 +164,15 @@ impl Spring {
 pub(crate) struct SoftSpring(Spring);
 
 impl SoftSpring {
+    /// Moves a value, with its rate of change and acceleration, toward a target that rests.
+    pub(crate) fn approach<T>(&self, [value, rate, acceleration]: &mut [T; 3], target: T)
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+    {
+        let [offset, new_rate, new_acceleration] = self.decayed([*value - target, *rate, *acceleration]);
+        (*value, *rate, *acceleration) = (target + offset, new_rate, new_acceleration);
+    }
+
     /// Offset, rate of change (per second) and acceleration (per second²) after the step.
     pub(crate) fn decayed<T>(&self, [offset, rate, acceleration]: [T; 3]) -> [T; 3]
     where

@@ -70,8 +70,7 @@ pub(super) fn filmed_still(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
     moments.into_iter().map(|moment| CrowdMoment { centre_m, ..moment }).collect()
 }
 
-/// The same moments for a camera that moves with the middle of the crowd, smoothed over the neighbours
-/// of each.
+/// The same moments for a camera that moves with the middle of the crowd, smoothed over those before and after.
 pub(super) fn filmed_moving(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
     let middles_m: Vec<Vec2> = moments.iter().map(|moment| middle_m(moment.positions_m())).collect();
     let last = middles_m.len().saturating_sub(1);

@@ -7,15 +7,13 @@
 //!
 //! 1. `adaptation` (§4.3): v_pref → v_op, by `keep_right`, the forces of `power_law` and the `density_filter`;
 //! 2. the half-planes of `avoidance` (§4.4) and `queueing`, `stance_half_plane` (§4.2) and `motion_constraints` (§4.1);
-//! 3. `orientation` (§4.5), and `gradual_turn`, which plans it little by little;
-//! 4. `gap`, which the synthesis passes with turned shoulders.
+//! 3. `orientation` (§4.5), and `gradual_turn`, which plans it little by little.
 //!
 //! `params` holds the tunables and the switches of the parts, `memory` what is kept from plan to plan.
 
 pub(crate) mod adaptation;
 pub(crate) mod avoidance;
 pub(crate) mod density_filter;
-pub(crate) mod gap;
 pub(crate) mod gradual_turn;
 pub(crate) mod keep_right;
 pub(crate) mod memory;

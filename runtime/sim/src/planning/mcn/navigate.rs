@@ -6,9 +6,9 @@
 use glam::Vec2;
 use motiondb::velocity_sets::velocity_hull::Construction;
 
+use crate::planning::gap::gap_m;
 use crate::planning::mcn::adaptation::adapt;
 use crate::planning::mcn::avoidance::avoid;
-use crate::planning::mcn::gap::gap_m;
 use crate::planning::mcn::gradual_turn::gradual_facing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::orientation::{self, Orientation, OrientationInput};
@@ -30,7 +30,7 @@ const WALL_SPEED_MPS: f32 = 4.0;
 /// 3. Find the half-planes of walls and agents (§4.4).
 /// 4. Solve for the velocity in the turning set; in the holding set where the agent would stand (§4.1, 4.2, 4.4).
 /// 5. Choose the facing, and with it the velocity set (§4.5); a body turns to it gradually.
-/// 6. Measure the gap that the agent passes.
+/// 6. Measure the gap that the agent passes, and the room that its body has.
 pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
     memory.surroundings.look_around(world, agent, params.neighbour_range_m, wall_range_m);

@@ -6,13 +6,13 @@
 //! ahead go elsewhere, and it has no weight: jams dissolve by stepping back.
 //!
 //! With the directions e of the preferred velocities, the urgency w_j of a neighbour j (`avoidance`), and the share a_j of
-//! its offset along e_i, its weight is
+//! its offset along e_i, the weight of the half-plane is
 //!
 //! ```text
 //! W·max(0, Σ_j w_j·a_j·(e_i·e_j) / Σ_j w_j·a_j)².
 //! ```
 //!
-//! World axes.
+//! World axes, m/s.
 
 use glam::Vec2;
 
@@ -23,7 +23,7 @@ use crate::world::neighbours::neighbour_lanes::Lanes;
 
 /// W: weight of the half-plane where all agents ahead go the same way; that of an agent in contact is 1.
 const WEIGHT: f32 = 0.7;
-/// Weight below which there is no half-plane.
+/// Weight below which there is no half-plane: where all half-planes can be kept, each is, whatever its weight.
 const WEIGHT_MIN: f32 = 0.02;
 
 /// The half-plane of an agent that queues behind its neighbours, given their urgencies; none where it does not queue.

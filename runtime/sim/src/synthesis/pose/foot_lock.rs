@@ -179,9 +179,7 @@ impl FootLock {
 
     /// Lets the shift decay to another, and the twist to none.
     fn release(&mut self, away_m: Vec2, step: &TimeStep) {
-        let [shift_m, mps, mps2] = self.shift_m;
-        let [off_m, mps, mps2] = step.lock_release.decayed([shift_m - away_m, mps, mps2]);
-        self.shift_m = [away_m + off_m, mps, mps2];
+        step.lock_release.approach(&mut self.shift_m, away_m);
         self.twist_rad = step.lock_release.decayed(self.twist_rad);
     }
 

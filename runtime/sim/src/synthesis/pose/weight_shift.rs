@@ -46,9 +46,7 @@ impl WeightShift {
             self.stance = Some(stance).filter(|_| locks[stance].planted() && (swings || !self.has_lifted));
             self.has_lifted |= swings;
         }
-        let [shift_m, mps, mps2] = self.shift_m;
-        let [off_m, mps, mps2] = step.weight_shift.decayed([shift_m - target_m, mps, mps2]);
-        self.shift_m = [target_m + off_m, mps, mps2];
+        step.weight_shift.approach(&mut self.shift_m, target_m);
         self.shift_m[0]
     }
 }

@@ -13,12 +13,15 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::maths::angle::rotation;
-use crate::planning::elbow_room::ElbowRoom;
+use crate::planning::elbow_room::{ElbowRoom, RoomSide};
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::upper_body::lean::tilt_trunk;
 
 /// Greatest tilt of the trunk, rad (9°).
 const TILT_MAX_RAD: f32 = 0.16;
+/// Overlap with the border of the room from which on a body yields by the whole of it, m. It begins to yield as far before
+/// the border, so that it moves without a jerk.
+const SOFT_M: f32 = 0.06;
 /// Turn below which a body without walls and bodies near by is left unchanged, rad; likewise its rates.
 const STILL_RAD: f32 = 1e-4;
 /// The joints from the foot of the spine to each hand, `[left, right]`.
@@ -83,14 +86,16 @@ impl BodyClearance {
         let arms = ARMS.map(|arm| PosedArm::of(pose, arm.map(Joint::index), skeleton));
         let spine_m = arms[0].spine_m;
         let target_rad = turn_rad(spine_m, arms.map(|arm| arm.shoulder), room).clamp_length_max(TILT_MAX_RAD);
-        let trunk_rad = follow(&mut self.trunk_rad, target_rad, step);
+        step.clearance.approach(&mut self.trunk_rad, target_rad);
+        let trunk_rad = self.trunk_rad[0];
         // The axis is z × tilt.
         tilt_trunk(pose, Vec2::new(trunk_rad.y, -trunk_rad.x));
         let tilt = rotation(trunk_rad);
         for (side, arm) in arms.into_iter().enumerate() {
             let arm = arm.tilted(tilt);
             let target_rad = turn_rad(arm.shoulder.centre_m, arm.points, room);
-            let turn = rotation(follow(&mut self.arms_rad[side], target_rad, step));
+            step.clearance.approach(&mut self.arms_rad[side], target_rad);
+            let turn = rotation(self.arms_rad[side][0]);
             let rotated = &mut pose.rotations[Joint::UPPER_ARMS[side].index()];
             *rotated = (arm.carrier.conjugate() * turn * arm.carrier * *rotated).normalize();
         }
@@ -119,14 +124,6 @@ impl PosedArm {
     }
 }
 
-/// Moves a turn toward its target over one step.
-fn follow(turn: &mut [Vec3; 3], target_rad: Vec3, step: &TimeStep) -> Vec3 {
-    let [turn_rad, rate, acceleration] = *turn;
-    let [off_rad, rate, acceleration] = step.clearance.decayed([turn_rad - target_rad, rate, acceleration]);
-    *turn = [target_rad + off_rad, rate, acceleration];
-    turn[0]
-}
-
 /// The turn about a joint that brings points within the room, a vector along its horizontal axis, rad.
 fn turn_rad<const N: usize>(joint_m: Vec3, points: [RoundPoint; N], room: &ElbowRoom) -> Vec3 {
     let mut turn_rad = Vec3::ZERO;
@@ -135,7 +132,7 @@ fn turn_rad<const N: usize>(joint_m: Vec3, points: [RoundPoint; N], room: &Elbow
         let mut greatest_rad = 0.0_f32;
         for RoundPoint { centre_m, radius_m } in points {
             let offset_m = centre_m - joint_m + turn_rad.cross(centre_m - joint_m);
-            let yielded_m = side.yielded_m((joint_m + offset_m).truncate(), radius_m);
+            let yielded_m = yielded_m(side, (joint_m + offset_m).truncate(), radius_m);
             let angle_rad = back_rad(towards.dot(offset_m), offset_m.z, yielded_m);
             if angle_rad.abs() > greatest_rad.abs() {
                 greatest_rad = angle_rad;
@@ -144,6 +141,13 @@ fn turn_rad<const N: usize>(joint_m: Vec3, points: [RoundPoint; N], room: &Elbow
         turn_rad += greatest_rad * towards.cross(Vec3::Z);
     }
     turn_rad
+}
+
+/// Distance by which a point with a radius should come in from a side, m.
+fn yielded_m(side: &RoomSide, point_m: Vec2, radius_m: f32) -> f32 {
+    let over_m = side.towards.dot(point_m) + radius_m - side.distance_m;
+    let begun_m = (over_m + SOFT_M).clamp(0.0, 2.0 * SOFT_M);
+    begun_m * begun_m / (4.0 * SOFT_M) + (over_m - SOFT_M).max(0.0)
 }
 
 /// Angle by which a point turns back over or under a joint so that it comes in by `yielded_m`, rad, given how far out
@@ -164,7 +168,7 @@ mod tests {
     use super::*;
     use crate::test_db::test_db;
 
-    /// The room that a side at each distance to the left leaves, m.
+    /// The room that ends at a distance to the left, m.
     fn left_m(distance_m: f32) -> ElbowRoom {
         ElbowRoom::ending_at([distance_m * Vec2::Y])
     }
@@ -194,6 +198,19 @@ mod tests {
             end_m.y + skeleton.segment_radii_m[joint]
         });
         reaches_m.fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_body_yields_gradually_by_the_whole_overlap() {
+        let side = left_m(0.3).sides()[0];
+        let yielded_m = |over_m: f32| yielded_m(&side, Vec2::new(1.0, 0.25 + over_m), 0.05);
+        assert_eq!(yielded_m(-SOFT_M), 0.0);
+        assert!([1.0, 2.0].into_iter().all(|over| (yielded_m(over * SOFT_M) - over * SOFT_M).abs() < 1e-6));
+        let slopes: Vec<f32> = (-12..24)
+            .map(|step| 0.1 * SOFT_M * step as f32)
+            .map(|over_m| (yielded_m(over_m + 1e-3) - yielded_m(over_m)) / 1e-3)
+            .collect();
+        assert!(slopes.is_sorted_by(|a, b| (-1e-3..0.1).contains(&(b - a))), "{slopes:?}");
     }
 
     #[test]

@@ -48,9 +48,7 @@ impl Lean {
         let acceleration_mps2 = (velocity_mps - self.velocity_mps) / step.dt_s + turning_mps2 - clip_mps2;
         self.velocity_mps = velocity_mps;
         let target_rad = TILT_RAD_PER_MPS2 * acceleration_mps2.clamp_length_max(ACCELERATION_MAX_MPS2);
-        let [tilt_rad, rate, acceleration] = self.tilt_rad;
-        let [off_rad, rate, acceleration] = step.lean.decayed([tilt_rad - target_rad, rate, acceleration]);
-        self.tilt_rad = [target_rad + off_rad, rate, acceleration];
+        step.lean.approach(&mut self.tilt_rad, target_rad);
     }
 
     /// Tilts the trunk of a pose, and keeps the orientation of its head.

@@ -58,9 +58,7 @@ impl Squeeze {
             let size_rad = libm::acosf(((left_m + right_m) / (WIDE * breadth_m)).min(1.0)).min(ANGLE_MAX_RAD);
             if self.left_first { -size_rad } else { size_rad }
         });
-        let [angle_rad, rate, acceleration] = self.angle_rad;
-        let [off_rad, rate, acceleration] = step.squeeze.decayed([angle_rad - target_rad, rate, acceleration]);
-        self.angle_rad = [target_rad + off_rad, rate, acceleration];
+        step.squeeze.approach(&mut self.angle_rad, target_rad);
     }
 
     /// Turns the shoulders of a pose, and stills its arms about their means in the base walk.
