@@ -364,3 +364,19 @@ fn a_teleport_is_not_interpolated() {
     }
     assert!(y_at(f64::from(jump)) > 7.0);
 }
+
+#[test]
+fn a_strip_shows_one_agent_in_one_picture() {
+    let folder = render("strips", &["--view", "strip", "--agent", "0,4", "--frames", "101-149x4"]);
+    assert_eq!(files(&folder), ["scene.agent0.png", "scene.agent4.png"]);
+    let refused = |options: &[&str], message: &str| {
+        let arguments = [&["render", text(recording()), "-o", text(&folder), "--view", "strip"], options].concat();
+        fbcrowd(&arguments).expect_code(2).says(&[message]);
+    };
+    refused(&[], "add --agent N");
+    refused(&["--agent", "6"], "agents 0 to 5");
+    refused(&["--agent", "0", "--burn-in"], "--burn-in belongs to frames");
+    refused(&["--agent", "0", "--fps", "600"], "choose fewer by --frames");
+    fbcrowd(&["render", text(recording()), "-o", text(&folder), "--agent", "0"]).expect_code(2).says(&["--view strip"]);
+    assert_eq!(files(&folder).len(), 2);
+}

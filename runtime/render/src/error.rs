@@ -78,8 +78,8 @@ pub enum RenderError {
         /// Time of the recording, s.
         duration_s: f64,
     },
-    /// The recording does not have the agent of an overlay.
-    #[error("agent {agent} does not exist; the recording has agents 0 to {}; choose one of these (a picture with an overlay shows the numbers)", count.saturating_sub(1))]
+    /// The recording does not have an agent that is to be shown.
+    #[error("agent {agent} does not exist; the recording has agents 0 to {}; choose one of these (--view camera --labels shows the numbers)", count.saturating_sub(1))]
     NoSuchAgent {
         /// Index of the agent.
         agent: usize,
@@ -136,6 +136,24 @@ pub enum RenderError {
         agent: u32,
         /// Time, s.
         time_s: f64,
+    },
+    /// The agent of a strip is not present.
+    #[error("agent {agent} is not present at {time_s} s; choose frames in which it is present by --frames")]
+    AbsentAgent {
+        /// Id of the agent.
+        agent: u32,
+        /// Time, s.
+        time_s: f64,
+    },
+    /// A strip has no room for so many times.
+    #[error(
+        "{requested} frames do not fit in one strip, which has room for {room}; choose fewer by --frames, such as 1001-1120x6"
+    )]
+    TooManyTimes {
+        /// Number of frames requested.
+        requested: usize,
+        /// Number of frames that fit.
+        room: usize,
     },
     /// The recording has no frame.
     #[error("the recording holds no frame; simulate for at least one step")]

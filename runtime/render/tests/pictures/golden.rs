@@ -8,7 +8,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use fbcrowd_render::constraints::ConstraintOverlay;
-use fbcrowd_render::plots::crowd::trajectories;
+use fbcrowd_render::plots::crowd::{agent_strip, trajectories};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::{TopView, read_tracks, sample};
 use fbcrowd_sim::recording::Recording;
@@ -59,6 +59,7 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
         ("camera_front.png", portrait(&recording, 0.5, [128, 160])),
         ("camera_side.png", portrait(&recording, 1.6, [128, 160])),
         ("overlay_constraints.png", overlaid(&[2], 1.0)),
+        ("agent_strip.png", quarter(&agent_strip(&recording, &[], 1, &[0.5, 0.8, 1.1]).unwrap())),
         ("trajectories.png", quarter(&trajectories(recording.header(), &tracks))),
     ]
 }

@@ -9,7 +9,7 @@ use std::{fs, io};
 
 use fbcrowd_render::camera::{CameraOptions, camera_picture_paths, draw_camera_sequence, render_camera_sequence};
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::plots::crowd::trajectories;
+use fbcrowd_render::plots::crowd::{StripOptions, strip_paths, trajectories, write_agent_strips};
 use fbcrowd_render::raster::{RgbPicture, png_frame};
 use fbcrowd_render::top_view::{
     SequenceOptions, draw_sequence, frame_times, picture_paths, read_tracks, render_sequence,
@@ -19,7 +19,7 @@ use fbcrowd_sim::scenario::FrameRate;
 
 use crate::error::JobError;
 use crate::observer::{Observer, Work};
-use crate::output_path::check_files;
+use crate::output_path::{LockedFolder, check_files};
 use crate::rendering::video::{Video, VideoOptions};
 
 /// A sequence that has been rendered.
@@ -94,6 +94,20 @@ pub fn render_camera(
     observer: &Observer,
 ) -> Result<RenderedSequence, JobError> {
     watched(observer, |progress| Ok::<_, RenderError>(render_camera_sequence(recording, options, progress)?.len()))
+}
+
+/// Draws strips of single agents, and returns the files; none of them replaces an input.
+///
+/// # Errors
+/// As [`check_frames`] and [`render`]; and where an agent does not exist or is not present.
+pub fn render_strips(
+    recording: &Recording,
+    options: &StripOptions,
+    inputs: &[PathBuf],
+) -> Result<Vec<PathBuf>, JobError> {
+    check_files(&options.folder, &strip_paths(recording, options), inputs)?;
+    let _lock = LockedFolder::shared(&options.folder)?;
+    Ok(write_agent_strips(recording, options)?)
 }
 
 /// Renders a recording from above into a video.

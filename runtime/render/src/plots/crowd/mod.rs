@@ -1,10 +1,12 @@
 //! Plots of crowds: paths, comparisons of planners, the fundamental diagram, lines and areas that a scenario measures,
-//! the plan of a scene.
+//! the plan of a scene, strips of single agents.
 //!
-//! Enters: tracks of a recording, measures of a bench, or a scenario. Leaves: an opaque picture.
+//! Enters: a recording, measures of a bench, or a scenario. Leaves: an opaque picture.
 //!
-//! Read `trajectories`, then `side_by_side`, `comparison`, `fundamental_diagram`, `place_plots` and `scene_plan`.
+//! Read `trajectories`, then `side_by_side`, `comparison`, `fundamental_diagram`, `place_plots`, `scene_plan` and
+//! `agent_strip`.
 
+pub(crate) mod agent_strip;
 pub(crate) mod comparison;
 pub(crate) mod fundamental_diagram;
 pub(crate) mod place_plots;
@@ -12,6 +14,7 @@ pub(crate) mod scene_plan;
 pub(crate) mod side_by_side;
 pub(crate) mod trajectories;
 
+pub use agent_strip::{StripOptions, agent_strip, strip_paths, write_agent_strips};
 pub use comparison::{ComparedMeasure, Comparison, comparison};
 pub use fundamental_diagram::{FundamentalDiagram, fundamental_diagram};
 pub use place_plots::{place_plot, place_plot_path, write_place_plots};

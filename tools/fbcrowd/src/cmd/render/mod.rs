@@ -12,6 +12,7 @@ use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{camera_file, character};
 use fbcrowd_render::camera::{CameraOptions, Quality};
 use fbcrowd_render::passes::{ColourSpace, ExrCompression, PassSet};
+use fbcrowd_render::plots::crowd::StripOptions;
 use fbcrowd_render::top_view::{FrameRange, SequenceOptions};
 use fbcrowd_render::visibility::SamplePattern;
 use fbcrowd_sim::recording::Recording;
@@ -25,10 +26,10 @@ use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Render a recording to a frame sequence, from above or from a camera.
+/// Render a recording to a frame sequence, from above or from a camera, or single agents to strips.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --view camera --samples 16 --format exr\n  fbcrowd render mall.fbrec -o atrium --view camera --camera atrium --frames 1001-1100x2 --burn-in\n  fbcrowd render crossing.fbrec --view camera --fps 24 --samples-per-frame 8 --video crossing.mp4\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
+    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --view camera --samples 16 --format exr\n  fbcrowd render mall.fbrec -o atrium --view camera --camera atrium --frames 1001-1100x2 --burn-in\n  fbcrowd render crossing.fbrec --view camera --fps 24 --samples-per-frame 8 --video crossing.mp4\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120\n  fbcrowd render crossing.fbrec -o strips --view strip --agent 3 --frames 1001-1120x6"
 )]
 pub(crate) struct Args {
     /// The recording.
@@ -46,7 +47,7 @@ pub(crate) struct Args {
     /// Quality of the video: constant rate factor, less is better and larger.
     #[arg(long, value_name = "N", default_value_t = video::CRF, requires = "video", value_parser = clap::value_parser!(u8).range(0..=51))]
     crf: u8,
-    /// The view: from above, or from a camera.
+    /// The view: from above, from a camera, or of single agents.
     #[arg(long, value_enum, default_value_t = ViewArg::Top)]
     view: ViewArg,
     /// File format: PNG (sRGB) or EXR (scene-linear, half).
@@ -58,8 +59,8 @@ pub(crate) struct Args {
     /// Draw, beside the scene, the velocity space of the agents given by --agent.
     #[arg(long, value_enum, value_name = "WHAT")]
     overlay: Option<OverlayArg>,
-    /// An agent of the overlay, counted from 0; repeat it, or write 3,7, for several panels.
-    #[arg(long, value_name = "N", value_delimiter = ',', requires = "overlay")]
+    /// An agent of the overlay or strip, counted from 0; repeat it, or write 3,7, for several.
+    #[arg(long, value_name = "N", value_delimiter = ',')]
     agent: Vec<usize>,
     #[command(flatten)]
     shot: ShotArgs,
@@ -143,6 +144,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let rendered = match args.view {
         ViewArg::Top => render_top(args, &recording)?,
         ViewArg::Camera => render_camera(args, &recording)?,
+        ViewArg::Strip => return render_strips(args, &recording),
     };
     let written = args.video.as_ref().or(args.output.as_ref()).map_or(String::new(), |path| path.display().to_string());
     output::print(&format!(
@@ -239,12 +241,41 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     Ok(rendering::render_camera(recording, &options, &|event| progress.observe(event))?)
 }
 
+/// Draws a strip of each agent.
+fn render_strips(args: &Args, recording: &Recording) -> Result<Answer, Failure> {
+    if args.agent.is_empty() {
+        return Err(Failure::bad("--view strip draws single agents, and none is named; add --agent N".to_owned()));
+    }
+    let others = [
+        ("--overlay", args.overlay.is_some()),
+        ("--video", args.video.is_some()),
+        ("--format exr", matches!(args.format, FormatArg::Exr)),
+    ];
+    let other = others.into_iter().find_map(|(name, is_given)| is_given.then_some(name));
+    if let Some(option) = other.or(args.camera.given()) {
+        return Err(Failure::bad(format!("{option} belongs to frames; remove it or --view strip")));
+    }
+    let options = StripOptions {
+        folder: args.output.clone().unwrap_or_default(),
+        agents: args.agent.clone(),
+        frames: args.frames.clone(),
+        shot: args.shot.shot(recording)?,
+        characters: character::of_recording(&args.recording, recording.header())?,
+    };
+    let strips = rendering::render_strips(recording, &options, std::slice::from_ref(&args.recording))?;
+    strips.iter().for_each(|strip| output::say(&format!("drew {}", strip.display())));
+    Ok(Answer::Yes)
+}
+
 fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
     match args.overlay {
         Some(OverlayArg::Constraints) if args.agent.is_empty() => Err(Failure::bad(format!(
             "--overlay constraints draws the velocity space of an agent, and no agent is named; add --agent N (0 to {})",
             count.saturating_sub(1)
         ))),
+        None if !args.agent.is_empty() => {
+            Err(Failure::bad("--agent names whom --overlay or --view strip shows; add one of these".to_owned()))
+        }
         Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),
     }
 }

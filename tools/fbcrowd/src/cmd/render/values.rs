@@ -40,6 +40,8 @@ pub(super) enum ViewArg {
     Top,
     /// From a camera in the scene.
     Camera,
+    /// The body of each --agent alone at the frames, side by side, from its right side and from its front.
+    Strip,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
