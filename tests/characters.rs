@@ -68,6 +68,11 @@ fn figures_are_compiled_inspected_and_worn() {
     }
     let shown = fbcrowd(&["inspect", text(&adult)]).expect_code(0).stdout;
     assert!(shown.contains("left_thigh          LeftUpLeg"), "{shown}");
+
+    fs::rename(folder.join("characters"), folder.join("elsewhere")).unwrap();
+    fbcrowd(&["render", text(&recording), "-o", text(&folder.join("frames")), "--view", "camera", "--frames", "1001"])
+        .expect_code(2)
+        .says(&["adult.fbchar is missing", "keep the folder `characters` beside the recording"]);
 }
 
 /// A database of a walk and an idle whose fingers curl by an angle, degrees, of the finger and the time.
@@ -245,6 +250,48 @@ fn a_broad_figure_needs_more_room() {
     assert!(of_two_lines(&folder, "broad", "radius_m = 0.25\n").0.iter().all(|radius_m| *radius_m == 0.25));
 }
 
+/// The adult with legs of half the length.
+fn with_short_legs() -> Figure {
+    let mut figure = Figure::adult();
+    let hips_m = 0.5 * 0.9;
+    for bone in &mut figure.bones {
+        let height_m = &mut bone.2[1];
+        *height_m = if *height_m < 0.9 { 0.5 * *height_m } else { *height_m - hips_m };
+    }
+    let is_leg = |name: &str| name.contains("UpLeg");
+    figure.bones.iter_mut().filter(|bone| is_leg(bone.0)).for_each(|bone| bone.2[1] = hips_m);
+    figure
+}
+
+#[test]
+fn a_giant_is_warned_of_with_the_stature_that_mends_it() {
+    let folder = folder("giant");
+    compile(&[WALK.to_owned()], &folder);
+    write(&folder, "squat.glb", &with_short_legs());
+    let scene = |keys: &str| {
+        let head = "duration_s = 2\ndatabase = \"motion.fbdb\"\n[[characters]]\nfile = \"squat.glb\"\n";
+        format!("{head}[profiles.own]\n{keys}[[agents]]\nat_m = [0, 0]\ngoal_offset_m = [9, 0]\nprofile = \"own\"\n")
+    };
+    let recording = folder.join("scene.fbrec");
+    let worn = fbcrowd(&["simulate", &scenario(&folder, &scene("")), "-o", text(&recording)]).expect_code(0);
+    let warning = &worn.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    let number = |after: &str| {
+        let (_, rest) = warning.split_once(after).unwrap_or_else(|| panic!("{after}: {warning}"));
+        let end = rest.find(|letter: char| letter != '.' && !letter.is_ascii_digit()).unwrap_or(rest.len());
+        rest[..end].parse::<f32>().unwrap()
+    };
+    let scale = number("scaled by ");
+    let [worn_m, crowd_m] =
+        [format!("scaled by {scale:.2}, "), "as tall as the crowd (".to_owned()].map(|part| number(&part));
+    let stature = number("`stature = ");
+    assert!(worn_m > 1.3 * crowd_m && (stature * worn_m - crowd_m).abs() < 0.02, "{warning}");
+    assert!(warning.contains("for its own size (1.2"), "{warning}");
+    // The remedy holds: the agent that wears it has this stature.
+    let mended = scenario(&folder, &scene(&format!("stature = {stature}\n")));
+    fbcrowd(&["simulate", &mended, "-o", text(&recording)]).expect_code(0);
+    assert_eq!(Recording::open(&recording).unwrap().population().agents[0].stature, stature);
+}
+
 #[test]
 fn bad_figures_are_named_with_a_remedy() {
     let folder = folder("bad_figures");
@@ -253,6 +300,10 @@ fn bad_figures_are_named_with_a_remedy() {
     fbcrowd(&["compile", text(&legless), "-o", text(&output)])
         .expect_code(2)
         .says(&["legless.glb: no human", "name the"]);
+    let fox = write(&folder, "fox.glb", &Figure::fox());
+    fbcrowd(&["compile", text(&fox), "-o", text(&output)])
+        .expect_code(2)
+        .says(&["fox.glb: four legs", "give a human figure"]);
     assert!(!output.exists());
     let adult = write(&folder, "adult.glb", &Figure::adult());
     fbcrowd(&["compile", text(&adult), text(&legless), "-o", text(&output)]).expect_code(2).says(&["one file"]);

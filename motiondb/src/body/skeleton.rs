@@ -231,6 +231,13 @@ impl Skeleton {
         0.5 * (leg(0) + leg(1))
     }
 
+    /// Height of the crown at rest, metres.
+    pub fn height_m(&self) -> f32 {
+        let up_to_head = std::iter::successors(Some(Joint::Head), |joint| joint.parent());
+        let head_m: f32 = up_to_head.map(|joint| self.offsets_m[joint.index()].z).sum();
+        head_m + self.segment_ends_m[Joint::Head.index()].z
+    }
+
     /// The skeleton of a body that is `size` times as large: all lengths grow, angles stay.
     pub fn sized(&self, size: f32) -> Cow<'_, Self> {
         if size == 1.0 {

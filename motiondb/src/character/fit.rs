@@ -20,6 +20,9 @@ use crate::character::trunk_room::TrunkRoom;
 
 /// Greatest deviation of the scale from 1 for which a character's legs count as those of the skeleton.
 pub const SCALE_TOLERANCE: f32 = 0.1;
+/// Greatest deviation of a worn character's height from the skeleton's for which it is as tall as the crowd, as a share:
+/// people of one age differ by about as much.
+pub const HEIGHT_TOLERANCE: f32 = 0.15;
 /// Least length of a bone that has a direction, divided by the height of the hips.
 const BONE_MIN: f32 = 1e-3;
 
@@ -45,6 +48,8 @@ pub struct CharacterFit<'a> {
     pub(crate) trunk_room: TrunkRoom,
     /// Height of the skeleton's hips above the soles at rest, m.
     pub hips_over_soles_m: f32,
+    /// Height of the skeleton at rest, m.
+    pub skeleton_height_m: f32,
 }
 
 impl<'a> CharacterFit<'a> {
@@ -68,12 +73,24 @@ impl<'a> CharacterFit<'a> {
             leaders,
             extra_leaders: extra_leaders(character),
             hips_over_soles_m,
+            skeleton_height_m: skeleton.height_m(),
         }
     }
 
     /// Whether the character's legs differ from the skeleton's by more than [`SCALE_TOLERANCE`].
     pub fn is_scaled(&self) -> bool {
         (self.scale - 1.0).abs() > SCALE_TOLERANCE
+    }
+
+    /// Height of the character as worn, m.
+    pub fn height_m(&self) -> f32 {
+        self.scale * self.character.height_m
+    }
+
+    /// Whether the worn character is as tall as the crowd, within [`HEIGHT_TOLERANCE`]. Short legs below a large head make
+    /// a giant.
+    pub fn is_as_tall(&self) -> bool {
+        (self.height_m() / self.skeleton_height_m - 1.0).abs() <= HEIGHT_TOLERANCE
     }
 }
 

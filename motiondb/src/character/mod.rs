@@ -45,7 +45,7 @@ pub use character_file::{EXTRA_VERSION, MAGIC, VERSION, from_bytes, load, to_byt
 pub use check::{JOINTS_MAX, TRIANGLES_MAX, VERTICES_MAX, first_fault};
 pub use choice::{chosen, hue_turn};
 pub use dye::Dye;
-pub use fit::{CharacterFit, SCALE_TOLERANCE};
+pub use fit::{CharacterFit, HEIGHT_TOLERANCE, SCALE_TOLERANCE};
 pub use model::{Character, CharacterExtra, CharacterFoot, CharacterJoint, CharacterMesh, Material, WEIGHT_COUNT};
 pub use posing::JointTransform;
 pub use texture::{CharacterTexture, CutOut, TEXTURE_PIXELS_MAX, TEXTURE_SIDE_MAX, Wrap, linear_values};

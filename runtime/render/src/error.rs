@@ -155,6 +155,16 @@ pub enum RenderError {
         /// Number of frames that fit.
         room: usize,
     },
+    /// The recording has no agent of the number that a camera names.
+    #[error("camera {camera:?}: there is no agent {agent}; the recording has {}", numbers(*.count))]
+    UnknownCameraAgent {
+        /// Name of the camera.
+        camera: String,
+        /// Id of the agent.
+        agent: u32,
+        /// Number of agents that are ever present.
+        count: usize,
+    },
     /// The recording has no frame.
     #[error("the recording holds no frame; simulate for at least one step")]
     EmptyRecording,
@@ -178,4 +188,13 @@ pub enum FrameRangeFault {
     /// The range ends before it begins.
     #[error("the range ends before it begins")]
     Reversed,
+}
+
+/// Numbers of agents, in words.
+fn numbers(count: usize) -> String {
+    match count {
+        0 => "none".to_owned(),
+        1 => "agent 0 alone".to_owned(),
+        _ => format!("agents 0 to {}", count - 1),
+    }
 }

@@ -128,33 +128,42 @@ impl ScenarioCharacters {
         scenario.wear(self.characters.iter().map(size));
     }
 
-    /// Notes what the compiler reports, and characters whose legs differ much from those of the crowd.
+    /// Notes what the compiler reports, and characters whose legs or height differ much from the crowd's.
     pub fn note(&self, skeleton: &Skeleton, observer: &Observer) {
         for (name, loaded) in &self.characters {
             for note in &loaded.notes {
                 observer(JobEvent::Note(&format!("character {name}: {note}")));
             }
-            let fit = CharacterFit::new(&loaded.character, skeleton);
-            if fit.is_scaled() {
-                observer(JobEvent::Note(&format!("character {name}: {}", scaled_legs(&fit))));
+            if let Some(warning) = size_warning(&CharacterFit::new(&loaded.character, skeleton)) {
+                observer(JobEvent::Note(&format!("character {name}: {warning}")));
             }
         }
     }
 }
 
-/// The warning about a character whose legs differ much from the crowd's.
-pub fn scaled_legs(fit: &CharacterFit) -> String {
+/// The warning about a character whose legs or height differ much from the crowd's; none about others.
+pub fn size_warning(fit: &CharacterFit) -> Option<String> {
+    if !fit.is_scaled() && fit.is_as_tall() {
+        return None;
+    }
     let (own_m, crowd_m) = (fit.character.hips_over_soles_m, fit.hips_over_soles_m);
-    let stature = 1.0 / fit.scale;
-    let remedy = if STATURE.contains(&stature) {
-        format!("; for its own size, give the agents that wear it a profile with `stature = {stature:.2}`")
-    } else {
-        String::new()
+    let crowd_height = (!fit.is_as_tall()).then_some(("to be as tall as the crowd", fit.skeleton_height_m));
+    let own_height = fit.is_scaled().then_some(("for its own size", fit.character.height_m));
+    let remedy = |(aim, height_m): (&str, f32)| {
+        let stature = height_m / fit.height_m();
+        STATURE.contains(&stature).then(|| format!("`stature = {stature:.2}` {aim} ({height_m:.2} m)"))
     };
-    format!(
-        "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}{remedy}",
-        fit.scale
-    )
+    let remedies: Vec<String> = [crowd_height, own_height].into_iter().flatten().filter_map(remedy).collect();
+    let remedy = match remedies.is_empty() {
+        true => String::new(),
+        false => format!("; give the agents that wear it a profile with {}", remedies.join(", or ")),
+    };
+    Some(format!(
+        "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}, {:.2} m \
+         tall{remedy}",
+        fit.scale,
+        fit.height_m()
+    ))
 }
 
 /// The characters of a recording, from the folder beside it, in its order.
@@ -164,6 +173,9 @@ pub fn scaled_legs(fit: &CharacterFit) -> String {
 pub fn of_recording(recording: &Path, header: &Header) -> Result<Vec<Character>, JobError> {
     let load = |recorded: &fbcrowd_sim::recording::RecordedCharacter| {
         let path = path_beside(recording, &recorded.name);
+        if !path.exists() {
+            return Err(JobError::MissingCharacter { path, recording: recording.to_owned() });
+        }
         let (character, checksum) = character::load(&path)?;
         match checksum == recorded.checksum {
             true => Ok(character),

@@ -194,6 +194,18 @@ pub enum JobError {
         /// The compiled character.
         path: PathBuf,
     },
+    /// The character of a recording is not beside it.
+    #[error(
+        "{} is missing: {} shows agents as this figure; keep the folder `characters` beside the recording, or simulate again",
+        path.display(),
+        recording.display()
+    )]
+    MissingCharacter {
+        /// Where the character's file should be.
+        path: PathBuf,
+        /// The recording.
+        recording: PathBuf,
+    },
     /// A character beside a recording is not that of the simulation.
     #[error("{} is not the character of {}; simulate again, or restore the file", path.display(), recording.display())]
     OtherCharacter {

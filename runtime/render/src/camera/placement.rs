@@ -71,7 +71,7 @@ fn eye_and_target_m(recording: &Recording, spec: &CameraSpec, time_s: f64) -> Re
     }
     if let Some(agent) = spec.eyes_of {
         let bodies = sample(recording, time_s)?;
-        let body = present(&bodies, spec, agent, time_s)?;
+        let body = present(recording, &bodies, spec, agent, time_s)?;
         let stature = recording.population().agents[body.id.index()].stature;
         return Ok(eyes_m(body, recording.header().skeleton(), stature));
     }
@@ -90,16 +90,17 @@ pub(crate) fn keyed_eye_and_target_m(spec: &CameraSpec, time_s: f32) -> [Vec3; 2
 }
 
 fn present<'a>(
+    recording: &Recording,
     bodies: &'a [AgentFrame],
     spec: &CameraSpec,
     agent: u32,
     time_s: f64,
 ) -> Result<&'a AgentFrame, RenderError> {
+    let (camera, count) = (spec.name.clone(), recording.population().agents.len());
     let found = bodies.binary_search_by_key(&AgentId(agent), |body| body.id);
-    found.map(|index| &bodies[index]).map_err(|_| RenderError::CameraAgent {
-        camera: spec.name.clone(),
-        agent,
-        time_s: (time_s * 100.0).round() / 100.0,
+    found.map(|index| &bodies[index]).map_err(|_| match agent as usize >= count {
+        true => RenderError::UnknownCameraAgent { camera, agent, count },
+        false => RenderError::CameraAgent { camera, agent, time_s: (time_s * 100.0).round() / 100.0 },
     })
 }
 
@@ -117,7 +118,7 @@ fn follow_m(
     time_s: f64,
 ) -> Result<[Vec3; 2], RenderError> {
     let bodies = sample(recording, time_s)?;
-    let now = present(&bodies, spec, follow.agent, time_s)?.root;
+    let now = present(recording, &bodies, spec, follow.agent, time_s)?.root;
     let scenario = &recording.header().scenario;
     let last_s = recording.frame_count().saturating_sub(1) as f64 * f64::from(scenario.dt_s);
     let (mut at_m, mut ahead, mut count) = (Vec2::ZERO, Vec2::ZERO, 0.0);

@@ -81,7 +81,8 @@ fn frames_of_a_camera_that_cannot_be_drawn_say_why() {
     let unknown = error(&options(scratch.path(), "stil"));
     assert!(unknown.to_string().contains("still, keyed, behind, eyes, absent, default"), "{unknown}");
     let absent = error(&options(scratch.path(), "absent"));
-    assert!(matches!(absent, RenderError::CameraAgent { agent: 999, .. }), "{absent}");
+    assert!(matches!(absent, RenderError::UnknownCameraAgent { agent: 999, .. }), "{absent}");
+    assert!(absent.to_string().contains("no agent 999; the recording has agents 0 to "), "{absent}");
     let left: Vec<_> = fs::read_dir(scratch.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 1, "no frame is left: {left:?}");
     let body_m = sample(&recording, 0.0).unwrap()[2].root.position_m;

@@ -83,24 +83,33 @@ impl<'a> Stance<'a> {
         self.rig.mean_vector(|frame| self.rig.clip.position(frame, joint) - self.rig.clip.position(frame, other))
     }
 
-    /// Whether a condition holds of a joint of each limb of a pair, beside the same joint of each leg.
-    fn holds(&self, pair: &LimbPair, joint: usize, condition: impl Fn(usize, usize) -> bool) -> bool {
-        let is_true = |own: usize| self.legs.limbs.iter().all(|leg| condition(own, leg.joints[joint]));
-        pair.limbs.iter().all(|limb| is_true(limb.joints[joint]))
+    /// Whether a condition holds of two joints, each beside a joint of each leg.
+    fn holds(&self, own: [usize; 2], of_leg: usize, condition: impl Fn(usize, usize) -> bool) -> bool {
+        own.into_iter().all(|own| self.legs.limbs.iter().all(|leg| condition(own, leg.joints[of_leg])))
+    }
+
+    /// The lowest joint of a limb's end and below it: a horse's leg has five joints.
+    fn lowest(&self, limb: &Limb) -> usize {
+        let height = |joint: &usize| self.height(*joint, limb.joints[2]);
+        let below = self.rig.subtree(limb.joints[2]).into_iter();
+        below.min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(limb.joints[2])
     }
 
     /// Whether a pair stands on the ground, apart from the ankles.
     fn stands(&self, pair: &LimbPair) -> bool {
-        self.holds(pair, 2, |end, ankle| self.height(end, ankle) < STANDING && self.distance(end, ankle) > APART)
+        let stands = |end, ankle| self.height(end, ankle) < STANDING && self.distance(end, ankle) > APART;
+        self.holds(pair.limbs.each_ref().map(|limb| self.lowest(limb)), 2, stands)
     }
 
     /// Whether a pair begins as high as legs do.
     fn begins_as_legs(&self, pair: &LimbPair) -> bool {
-        self.holds(pair, 0, |from, hip| self.height(from, hip).abs() < BEGINNING)
+        self.holds(pair.limbs.each_ref().map(|limb| limb.joints[0]), 0, |from, hip| {
+            self.height(from, hip).abs() < BEGINNING
+        })
     }
 
     /// Whether a pair begins away from the hips.
     fn begins_away(&self, pair: &LimbPair) -> bool {
-        self.holds(pair, 0, |from, hip| self.distance(from, hip) > AWAY)
+        self.holds(pair.limbs.each_ref().map(|limb| limb.joints[0]), 0, |from, hip| self.distance(from, hip) > AWAY)
     }
 }

@@ -56,6 +56,32 @@ impl Figure {
         Self { bones: bones.to_vec(), size: 1.0, armature: 1.0, is_z_up: false, has_normals: true, weight: 1.0 }
     }
 
+    /// A fox: trunk along z, four legs of the same length.
+    pub(crate) fn fox() -> Self {
+        let bones: [Bone; 19] = [
+            ("Root", None, [0.0, 0.5, -0.4]),
+            ("Spine1", Some(0), [0.0, 0.52, -0.2]),
+            ("Spine2", Some(1), [0.0, 0.52, 0.1]),
+            ("Spine3", Some(2), [0.0, 0.5, 0.4]),
+            ("Neck", Some(3), [0.0, 0.6, 0.55]),
+            ("Head", Some(4), [0.0, 0.7, 0.65]),
+            ("FrontLegL1", Some(3), [0.1, 0.45, 0.4]),
+            ("FrontLegL2", Some(6), [0.1, 0.22, 0.38]),
+            ("FrontLegL3", Some(7), [0.1, 0.03, 0.4]),
+            ("FrontLegR1", Some(3), [-0.1, 0.45, 0.4]),
+            ("FrontLegR2", Some(9), [-0.1, 0.22, 0.38]),
+            ("FrontLegR3", Some(10), [-0.1, 0.03, 0.4]),
+            ("BackLegL1", Some(0), [0.1, 0.45, -0.4]),
+            ("BackLegL2", Some(12), [0.1, 0.22, -0.42]),
+            ("BackLegL3", Some(13), [0.1, 0.03, -0.4]),
+            ("BackLegR1", Some(0), [-0.1, 0.45, -0.4]),
+            ("BackLegR2", Some(15), [-0.1, 0.22, -0.42]),
+            ("BackLegR3", Some(16), [-0.1, 0.03, -0.4]),
+            ("Tail", Some(0), [0.0, 0.55, -0.7]),
+        ];
+        Self::of(&bones)
+    }
+
     /// With straight fingers of three joints: fingers along the arms, palms down, thumbs ahead of them.
     pub(crate) fn with_fingers(mut self) -> Self {
         for (hand, side, sign) in [("LeftHand", "Left", 1.0), ("RightHand", "Right", -1.0)] {

@@ -9,7 +9,7 @@ use motiondb_compiler::character::{CharacterReason, compile_character_bytes};
 use proptest::prelude::*;
 use serde_json::json;
 
-use crate::figure::{Bone, Figure};
+use crate::figure::Figure;
 use crate::support::{check_rejected, compiled, joint_name, reason, rest, skeleton};
 
 #[test]
@@ -19,32 +19,6 @@ fn compressed_meshes_are_rejected_by_name() {
         json["extensionsRequired"] = json!([extension]);
         check_rejected(&json, &bytes, &format!("compressed with {extension}"));
     }
-}
-
-/// A fox: trunk along z, four legs of the same length.
-fn fox() -> Figure {
-    let bones: [Bone; 19] = [
-        ("Root", None, [0.0, 0.5, -0.4]),
-        ("Spine1", Some(0), [0.0, 0.52, -0.2]),
-        ("Spine2", Some(1), [0.0, 0.52, 0.1]),
-        ("Spine3", Some(2), [0.0, 0.5, 0.4]),
-        ("Neck", Some(3), [0.0, 0.6, 0.55]),
-        ("Head", Some(4), [0.0, 0.7, 0.65]),
-        ("FrontLegL1", Some(3), [0.1, 0.45, 0.4]),
-        ("FrontLegL2", Some(6), [0.1, 0.22, 0.38]),
-        ("FrontLegL3", Some(7), [0.1, 0.03, 0.4]),
-        ("FrontLegR1", Some(3), [-0.1, 0.45, 0.4]),
-        ("FrontLegR2", Some(9), [-0.1, 0.22, 0.38]),
-        ("FrontLegR3", Some(10), [-0.1, 0.03, 0.4]),
-        ("BackLegL1", Some(0), [0.1, 0.45, -0.4]),
-        ("BackLegL2", Some(12), [0.1, 0.22, -0.42]),
-        ("BackLegL3", Some(13), [0.1, 0.03, -0.4]),
-        ("BackLegR1", Some(0), [-0.1, 0.45, -0.4]),
-        ("BackLegR2", Some(15), [-0.1, 0.22, -0.42]),
-        ("BackLegR3", Some(16), [-0.1, 0.03, -0.4]),
-        ("Tail", Some(0), [0.0, 0.55, -0.7]),
-    ];
-    Figure::of(&bones)
 }
 
 /// The adult with short legs and ears longer than these.
@@ -75,7 +49,11 @@ fn named_legs_beat_longer_ears() {
 
 #[test]
 fn figures_that_cannot_walk_are_rejected_by_name() {
-    assert!(matches!(reason(&fox().glb()), CharacterReason::FourLegs { .. }), "{}", reason(&fox().glb()));
+    assert!(
+        matches!(reason(&Figure::fox().glb()), CharacterReason::FourLegs { .. }),
+        "{}",
+        reason(&Figure::fox().glb())
+    );
     let legless = Figure::adult().without("UpLeg");
     let found = reason(&legless.glb());
     assert!(matches!(found, CharacterReason::NoArms { .. } | CharacterReason::NoLegs), "{found}");

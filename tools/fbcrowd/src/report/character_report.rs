@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fbcrowd_jobs::character::{LoadedCharacter, scaled_legs};
+use fbcrowd_jobs::character::{LoadedCharacter, size_warning};
 use fbcrowd_sim::measures::CharacterSoles;
 use motiondb::body::{Joint, Skeleton};
 use motiondb::character::{Character, CharacterExtra, CharacterFit};
@@ -187,10 +187,10 @@ impl CharacterReport {
             scale: fit.scale,
             is_scaled: fit.is_scaled(),
             crowd_hips_over_soles_m: fit.hips_over_soles_m,
-            worn_height_m: fit.scale * character.height_m,
+            worn_height_m: fit.height_m(),
         });
-        if fit.is_scaled() {
-            self.notes.push(NoteReport { code: "scaled_legs", text: scaled_legs(&fit) });
+        if let Some(text) = size_warning(&fit) {
+            self.notes.push(NoteReport { code: "scaled_legs", text });
         }
         self.soles = Some(soles.into());
     }

@@ -1,5 +1,5 @@
-//! How well a lens shows a crowd at a moment, by a picture of some thousand cells: bodies are upright rectangles, walls
-//! are edges with a height. World, metres.
+//! How well a lens shows a crowd at a moment, by a picture of some thousand cells. A body is an upright rectangle of two
+//! strips, left and right, each as high as walls leave it seen. World, metres.
 //!
 //! The score grows with the number of bodies that are seen well, S, as S / (S + constant): some tens fill a picture, and
 //! of a small crowd all are wanted. S is the sum over bodies of the share that is seen, times weights that grow with the
@@ -7,6 +7,7 @@
 
 use glam::Vec2;
 
+use crate::camera::default_camera::cell_rows::CellRows;
 use crate::camera::default_camera::crowd::{CrowdBody, CrowdMoment};
 use crate::camera::default_camera::walls::Walls;
 use crate::visibility::Lens;
@@ -15,10 +16,8 @@ use crate::visibility::Lens;
 const CELLS: f32 = 2304.0;
 /// Greatest number of cells along a side.
 const SIDE_MAX: f32 = 256.0;
-/// Breadth and height of a body, m.
-const BODY_M: Vec2 = Vec2::new(0.5, 1.75);
-/// Heights at which a body is tested against walls, m: shins and chest.
-const TESTED_M: [f32; 2] = [0.4, 1.4];
+/// Breadth of a body over its height.
+const BREADTH: f32 = 0.28;
 /// Number of bodies, seen well, that make half a picture of a large crowd.
 const HALF_COUNT: f32 = 20.0;
 /// Share of the picture's height at which a body weighs half as much as a large one.
@@ -48,20 +47,14 @@ pub(super) fn score(lens: &Lens, walls: &Walls, moment: &CrowdMoment) -> f32 {
     if walls.hold(lens.eye_m) {
         return 0.0;
     }
-    let seen = SeenBodies::new(lens, bodies);
+    let seen = SeenBodies::new(lens, walls, bodies);
     let value = |index: usize| {
-        let share = seen.share(index);
-        if share == 0.0 {
-            return 0.0;
-        }
-        let position_m = bodies[index].position_m;
-        let points_m = TESTED_M.map(|height_m| position_m.extend(height_m));
-        let free = points_m.iter().filter(|point_m| !walls.hide(lens.eye_m, **point_m)).count();
-        let to_eye = (lens.eye_m.truncate() - position_m).normalize_or_zero();
+        let share = seen.shares[index];
+        let to_eye = (lens.eye_m.truncate() - bodies[index].position_m).normalize_or_zero();
         let facing = BACK + (1.0 - BACK) * (0.5 + 0.5 * bodies[index].ahead.dot(to_eye));
         let height = seen.heights_px[index] / lens.size().y;
         let weight = height * height / (height * height + HALF_WEIGHT * HALF_WEIGHT);
-        weight * facing * share * free as f32 / TESTED_M.len() as f32
+        weight * facing * share
     };
     let mean = (0..bodies.len()).map(value).sum::<f32>() / bodies.len().max(1) as f32;
     let present = moment.present as f32;
@@ -72,14 +65,12 @@ pub(super) fn score(lens: &Lens, walls: &Walls, moment: &CrowdMoment) -> f32 {
     count * whole * whole * balance * seen.spread / (seen.spread + HALF_SPREAD)
 }
 
-/// Bodies in a coarse picture, without walls.
+/// Bodies in a coarse picture.
 struct SeenBodies {
     /// Height of each body; 0 where it is not before the eye.
     heights_px: Vec<f32>,
-    /// Cells that each body would cover alone, in a picture of any size.
-    whole: Vec<f32>,
-    /// Cells in which each body is the nearest.
-    seen: Vec<u32>,
+    /// Share of each body that is in the picture, and behind neither walls nor other bodies.
+    shares: Vec<f32>,
     /// Share of the bodies that the picture's edge cuts, weighted by their height.
     cut_share: f32,
     /// Middle of all cells in which bodies are seen, from that of the picture, of half its size.
@@ -88,86 +79,84 @@ struct SeenBodies {
     spread: f32,
 }
 
-impl SeenBodies {
-    fn new(lens: &Lens, bodies: &[CrowdBody]) -> Self {
-        let count = bodies.len();
-        let mut drawn = Self {
-            heights_px: vec![0.0; count],
-            whole: vec![0.0; count],
-            seen: vec![0; count],
-            cut_share: 0.0,
-            middle: Vec2::ZERO,
-            spread: 0.0,
-        };
-        let [width, height] = lens.size_px.map(|side| side as usize);
-        // Depth and index of the nearest body of each cell.
-        let mut nearest = vec![(f32::INFINITY, usize::MAX); width * height];
-        let (mut cut_px, mut all_px) = (0.0, 0.0);
-        for (index, CrowdBody { position_m, .. }) in bodies.iter().enumerate() {
-            let depth_m = lens.to_camera(position_m.extend(0.5 * BODY_M.y)).z;
-            let [feet, head] = [0.0, BODY_M.y].map(|height_m: f32| lens.to_px(position_m.extend(height_m)));
-            let (Some(feet), Some(head)) = (feet, head) else { continue };
-            let half = 0.5 * BODY_M.x / lens.pixel_m(depth_m);
-            let middle = 0.5 * (feet.x + head.x);
-            // Seen from above, a body is not lower than broad.
-            let top = head.y.min(feet.y - 2.0 * half);
-            let columns = cells(middle - half, middle + half);
-            let rows = cells(top, feet.y);
-            let height_px = feet.y - top;
-            drawn.heights_px[index] = height_px;
-            drawn.whole[index] = (columns[1] - columns[0]) * (rows[1] - rows[0]);
-            let [columns, rows] = [inside(columns, width), inside(rows, height)];
-            if !columns.is_empty() && !rows.is_empty() {
-                all_px += height_px;
-                if is_cut(lens, Vec2::new(middle - half, top), Vec2::new(middle + half, feet.y)) {
-                    cut_px += height_px;
-                }
-            }
-            for row in rows {
-                for cell in &mut nearest[row * width..][columns.clone()] {
-                    if depth_m < cell.0 {
-                        *cell = (depth_m, index);
-                    }
-                }
-            }
-        }
-        let (mut covered, mut sum, mut squares) = (0.0, Vec2::ZERO, 0.0);
-        for (cell, (_, index)) in nearest.iter().enumerate().filter(|(_, (_, index))| *index != usize::MAX) {
-            drawn.seen[*index] += 1;
-            let at = (Vec2::new((cell % width) as f32, (cell / width) as f32) + 0.5) / lens.size();
-            (covered, sum, squares) = (covered + 1.0, sum + at, squares + at.y * at.y);
-        }
-        if covered > 0.0 {
-            let mean = sum / covered;
-            drawn.middle = 2.0 * mean - 1.0;
-            drawn.spread = (squares / covered - mean.y * mean.y).max(0.0).sqrt();
-        }
-        drawn.cut_share = if all_px > 0.0 { cut_px / all_px } else { 0.0 };
-        drawn
+/// A body in a picture, walls aside.
+struct BodyOutline {
+    index: usize,
+    depth_m: f32,
+    low_px: Vec2,
+    high_px: Vec2,
+}
+
+impl BodyOutline {
+    /// None where it is not before the eye.
+    fn new(lens: &Lens, index: usize, body: &CrowdBody) -> Option<Self> {
+        let CrowdBody { position_m, height_m, .. } = *body;
+        let depth_m = lens.to_camera(position_m.extend(0.5 * height_m)).z;
+        let [feet, head] = [lens.to_px(position_m.extend(0.0))?, lens.to_px(position_m.extend(height_m))?];
+        let half = 0.5 * BREADTH * height_m / lens.pixel_m(depth_m);
+        let middle = 0.5 * (feet.x + head.x);
+        // Seen from above, a body is not lower than broad.
+        let top = head.y.min(feet.y - 2.0 * half);
+        Some(Self { index, depth_m, low_px: Vec2::new(middle - half, top), high_px: Vec2::new(middle + half, feet.y) })
     }
 
-    /// Share of a body that is in the picture and not behind others.
-    fn share(&self, index: usize) -> f32 {
-        self.seen[index] as f32 / self.whole[index].max(1.0)
+    fn height_px(&self) -> f32 {
+        self.high_px.y - self.low_px.y
+    }
+
+    /// Whether an edge of the picture cuts it.
+    fn is_cut(&self, lens: &Lens) -> bool {
+        let least = CUT * (self.high_px - self.low_px);
+        self.low_px.cmplt(-least).any() || self.high_px.cmpgt(lens.size() + least).any()
     }
 }
 
-/// Whether an edge of the picture cuts a body with these corners.
-fn is_cut(lens: &Lens, low: Vec2, high: Vec2) -> bool {
-    let least = CUT * (high - low);
-    low.cmplt(-least).any() || high.cmpgt(lens.size() + least).any()
+impl SeenBodies {
+    fn new(lens: &Lens, walls: &Walls, bodies: &[CrowdBody]) -> Self {
+        let [mut heights_px, mut shares] = [(); 2].map(|()| vec![0.0; bodies.len()]);
+        let outline = |(index, body)| BodyOutline::new(lens, index, body);
+        let mut outlines: Vec<BodyOutline> = bodies.iter().enumerate().filter_map(outline).collect();
+        outlines.sort_unstable_by(|a, b| a.depth_m.total_cmp(&b.depth_m));
+        let mut picture = CellRows::new(lens.size_px);
+        let (mut cut_px, mut all_px) = (0.0, 0.0);
+        for outline in &outlines {
+            let body = &bodies[outline.index];
+            let [columns, rows] = [0, 1].map(|axis| cells(outline.low_px[axis], outline.high_px[axis]));
+            heights_px[outline.index] = outline.height_px();
+            if !picture.holds_any(columns, rows) {
+                continue;
+            }
+            let middle = columns[0].midpoint(columns[1]).floor();
+            let strips = [[columns[0], middle], [middle, columns[1]]].into_iter().filter(|[from, to]| from < to);
+            let (mut is_seen, mut covered) = (false, 0);
+            for strip in strips {
+                // Where its middle is across the body, of the breadth.
+                let across =
+                    (0.5 * (strip[0] + strip[1]) - 0.5 * (columns[0] + columns[1])) / (columns[1] - columns[0]);
+                let aside_m = across * BREADTH * body.height_m * lens.right.truncate();
+                let hidden_m = walls.seen_from_m(lens.eye_m, body.position_m + aside_m, body.height_m);
+                let seen = 1.0 - hidden_m / body.height_m;
+                if seen > 0.0 {
+                    is_seen = true;
+                    covered += picture.cover(strip, [rows[0], rows[0] + (seen * (rows[1] - rows[0])).round()]);
+                }
+            }
+            shares[outline.index] = covered as f32 / ((columns[1] - columns[0]) * (rows[1] - rows[0]));
+            if is_seen {
+                all_px += outline.height_px();
+                cut_px += if outline.is_cut(lens) { outline.height_px() } else { 0.0 };
+            }
+        }
+        let (middle, spread) = picture.middle_and_spread();
+        let cut_share = if all_px > 0.0 { cut_px / all_px } else { 0.0 };
+        Self { heights_px, shares, cut_share, middle, spread }
+    }
 }
 
 /// First cell of a range and the one after its last, at least one cell.
 fn cells(low: f32, high: f32) -> [f32; 2] {
     let first = low.round();
     [first, high.round().max(first + 1.0)]
-}
-
-/// The part of a range of cells that is in a picture.
-fn inside([first, end]: [f32; 2], side: usize) -> std::ops::Range<usize> {
-    let end = (end.max(0.0) as usize).min(side);
-    (first.max(0.0) as usize).min(end)..end
 }
 
 #[cfg(test)]
@@ -184,7 +173,7 @@ mod tests {
 
     fn score_facing(scenario: &Scenario, positions_m: &[Vec2], ahead: Vec2) -> f32 {
         let bodies: Vec<CrowdBody> =
-            positions_m.iter().map(|position_m| CrowdBody { position_m: *position_m, ahead }).collect();
+            positions_m.iter().map(|position_m| CrowdBody { position_m: *position_m, ahead, height_m: 1.75 }).collect();
         let moment = CrowdMoment { time_s: 0.0, centre_m: Vec2::ZERO, present: bodies.len(), bodies };
         score(&lens(), &Walls::new(scenario), &moment)
     }
@@ -205,9 +194,15 @@ mod tests {
         scenario.obstacles_m.push([[-9.0, -1.0], [9.0, -1.0], [9.0, -0.9], [-9.0, -0.9]].map(Vec2::from).to_vec());
         let behind = score_of(&scenario, &[Vec2::ZERO]);
         assert!(behind < 1e-6, "{behind}");
-        // A kerb hides the shins only.
+        // A kerb hides the shins only: up to 0.63 m of 1.75 m.
         scenario.obstacle_heights_m = vec![Some(0.8)];
-        assert!((score_of(&scenario, &[Vec2::ZERO]) / alone - 0.5).abs() < 0.02);
+        let over_kerb = score_of(&scenario, &[Vec2::ZERO]) / alone;
+        assert!((over_kerb - 0.64).abs() < 0.1, "{over_kerb}");
+        // A wall before the left half of the body hides this half.
+        scenario.obstacles_m = vec![[[-9.0, -1.0], [0.0, -1.0], [0.0, -0.9], [-9.0, -0.9]].map(Vec2::from).to_vec()];
+        scenario.obstacle_heights_m = vec![Some(2.4)];
+        let right_half = score_of(&scenario, &[Vec2::ZERO]) / alone;
+        assert!((right_half - 0.5).abs() < 0.1, "{right_half}");
     }
 
     #[test]

@@ -5,10 +5,16 @@ use glam::Vec2;
 
 use crate::error::RenderError;
 
-/// Number of moments of a recording.
-const MOMENTS: u32 = 36;
+/// Number of moments of a recording at which a moving camera has a key.
+const KEYS: usize = 36;
+/// Number of moments from key to key of a small crowd. A wall may hide a lone body between two keys.
+const MOMENTS_OF_KEY: usize = 4;
+/// Greatest number of bodies of a crowd that has twice as many moments as keys.
+const FEW_BODIES: usize = 60;
 /// Greatest number of bodies of a moment, at even steps.
 const BODIES_MAX: usize = 1_000;
+/// Least height of bodies, m.
+const HEIGHT_MIN_M: f32 = 0.1;
 /// Share of the bodies of a moment that its middle leaves out on each side.
 const OUTERMOST: f32 = 0.1;
 
@@ -17,6 +23,32 @@ const OUTERMOST: f32 = 0.1;
 pub(super) struct CrowdBody {
     pub(super) position_m: Vec2,
     pub(super) ahead: Vec2,
+    pub(super) height_m: f32,
+}
+
+/// A crowd over its recording.
+#[derive(Clone, Debug)]
+pub(super) struct CrowdMoments {
+    pub(super) moments: Vec<CrowdMoment>,
+    /// Number of moments from key to key of a moving camera.
+    pub(super) of_key: usize,
+}
+
+impl CrowdMoments {
+    /// Indices of the moments at which a moving camera has a key.
+    pub(super) fn keys(&self) -> Vec<usize> {
+        let last = self.moments.len().saturating_sub(1);
+        let inner = (0..last).step_by(self.of_key);
+        inner.chain((!self.moments.is_empty()).then_some(last)).collect()
+    }
+
+    /// Median height of the bodies, m.
+    pub(super) fn height_m(&self) -> f32 {
+        let mut heights_m: Vec<f32> =
+            self.moments.iter().flat_map(|moment| &moment.bodies).map(|body| body.height_m).collect();
+        heights_m.sort_by(f32::total_cmp);
+        quantile(&heights_m, 0.5).max(HEIGHT_MIN_M)
+    }
 }
 
 /// The crowd at a moment.
@@ -38,14 +70,29 @@ impl CrowdMoment {
 }
 
 /// Moments from a time to the end of a recording at which bodies are present.
-pub(super) fn read_moments(recording: &Recording, start_s: f64) -> Result<Vec<CrowdMoment>, RenderError> {
+pub(super) fn read_moments(recording: &Recording, start_s: f64) -> Result<CrowdMoments, RenderError> {
+    let moments = moments_at(recording, start_s, KEYS)?;
+    let present = moments.iter().map(|moment| moment.present).max().unwrap_or(0);
+    let of_key = (2 * FEW_BODIES / present.max(1)).clamp(1, MOMENTS_OF_KEY);
+    let moments = if of_key == 1 { moments } else { moments_at(recording, start_s, of_key * (KEYS - 1) + 1)? };
+    Ok(CrowdMoments { moments, of_key })
+}
+
+/// So many moments from a time to the end of a recording, less those without a body.
+fn moments_at(recording: &Recording, start_s: f64, count: usize) -> Result<Vec<CrowdMoment>, RenderError> {
     let length_s = (duration_s(recording) - start_s).max(0.0);
+    let crowd_m = recording.header().skeleton().height_m();
+    let lives = &recording.population().agents;
+    let body = |agent: &AgentFrame| CrowdBody {
+        position_m: agent.root.position_m,
+        ahead: agent.root.forward(),
+        height_m: crowd_m * lives.get(agent.id.index()).map_or(1.0, |life| life.stature),
+    };
     let mut moments = Vec::new();
-    for index in 0..MOMENTS {
-        let time_s = start_s + length_s * f64::from(index) / f64::from(MOMENTS - 1);
+    for index in 0..count {
+        let time_s = start_s + length_s * index as f64 / (count - 1) as f64;
         let agents = sample(recording, time_s)?;
         let step = agents.len().div_ceil(BODIES_MAX).max(1);
-        let body = |agent: &AgentFrame| CrowdBody { position_m: agent.root.position_m, ahead: agent.root.forward() };
         if !agents.is_empty() {
             let bodies = agents.iter().step_by(step).map(body).collect();
             moments.push(CrowdMoment { time_s, centre_m: Vec2::ZERO, present: agents.len(), bodies });
@@ -65,20 +112,33 @@ pub(super) fn thinned(moments: &[CrowdMoment], [moment_count, body_count]: [usiz
 }
 
 /// The same moments for a camera that stands still.
-pub(super) fn filmed_still(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
-    let centre_m = middle_m(moments.iter().flat_map(CrowdMoment::positions_m));
-    moments.into_iter().map(|moment| CrowdMoment { centre_m, ..moment }).collect()
+pub(super) fn filmed_still(crowd: &CrowdMoments) -> CrowdMoments {
+    let centre_m = middle_m(crowd.moments.iter().flat_map(CrowdMoment::positions_m));
+    let moments = crowd.moments.iter().map(|moment| CrowdMoment { centre_m, ..moment.clone() }).collect();
+    CrowdMoments { moments, ..*crowd }
 }
 
-/// The same moments for a camera that moves with the middle of the crowd, smoothed over those before and after.
-pub(super) fn filmed_moving(moments: Vec<CrowdMoment>) -> Vec<CrowdMoment> {
-    let middles_m: Vec<Vec2> = moments.iter().map(|moment| middle_m(moment.positions_m())).collect();
+/// The same moments for a camera that moves with the middle of the crowd: smoothed over the keys before and after, and
+/// straight from key to key.
+pub(super) fn filmed_moving(crowd: &CrowdMoments) -> CrowdMoments {
+    let keys = crowd.keys();
+    let middles_m: Vec<Vec2> = keys.iter().map(|key| middle_m(crowd.moments[*key].positions_m())).collect();
     let last = middles_m.len().saturating_sub(1);
-    let centre_m = |at: usize| match at {
+    let key_m = |at: usize| match at {
         _ if at == 0 || at == last => middles_m[at],
         _ => 0.25 * middles_m[at - 1] + 0.5 * middles_m[at] + 0.25 * middles_m[at + 1],
     };
-    moments.into_iter().enumerate().map(|(at, moment)| CrowdMoment { centre_m: centre_m(at), ..moment }).collect()
+    let mut moments = crowd.moments.clone();
+    for (at, keys) in keys.windows(2).enumerate() {
+        for (index, moment) in moments.iter_mut().enumerate().take(keys[1] + 1).skip(keys[0]) {
+            let share = (index - keys[0]) as f32 / (keys[1] - keys[0]) as f32;
+            moment.centre_m = key_m(at).lerp(key_m(at + 1), share);
+        }
+    }
+    if let ([_], [only]) = (&keys[..], &mut moments[..]) {
+        only.centre_m = key_m(0);
+    }
+    CrowdMoments { moments, ..*crowd }
 }
 
 /// Middle of the box that holds all but the outermost positions on each side, m.
@@ -121,5 +181,26 @@ mod tests {
                 .map(|part| { part.into_iter().map(Vec2::from).collect::<Vec<Vec2>>() })
         );
         assert_eq!(halves(Vec::new()), [Vec::new(), Vec::new()]);
+    }
+
+    #[test]
+    fn a_moving_camera_is_straight_between_its_keys() {
+        let moment = |index: u8| CrowdMoment {
+            time_s: f64::from(index),
+            centre_m: Vec2::ZERO,
+            present: 1,
+            bodies: vec![CrowdBody { position_m: Vec2::new(f32::from(index), 0.0), ahead: Vec2::X, height_m: 1.6 }],
+        };
+        let crowd = CrowdMoments { moments: (0..11).map(moment).collect(), of_key: 4 };
+        assert_eq!(crowd.keys(), [0, 4, 8, 10]);
+        assert!((crowd.height_m() - 1.6).abs() < 1e-6);
+        let centres_m: Vec<f32> = filmed_moving(&crowd).moments.iter().map(|moment| moment.centre_m.x).collect();
+        // The last span is shorter, so its first key is drawn back.
+        assert_eq!(centres_m, [0.0, 1.0, 2.0, 3.0, 4.0, 4.875, 5.75, 6.625, 7.5, 8.75, 10.0]);
+        for count in [0, 1] {
+            let crowd = CrowdMoments { moments: (3..3 + count).map(moment).collect(), of_key: 4 };
+            let centres_m: Vec<f32> = filmed_moving(&crowd).moments.iter().map(|moment| moment.centre_m.x).collect();
+            assert_eq!(centres_m, vec![3.0; usize::from(count)]);
+        }
     }
 }

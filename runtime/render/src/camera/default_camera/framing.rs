@@ -11,12 +11,17 @@ const FILM_MM: f32 = 36.0;
 const FOCAL_MM: [f32; 2] = [28.0, 135.0];
 /// Share of the picture within which bodies are framed.
 const FRAMED: f32 = 0.88;
-/// Height of a body, m.
-const BODY_M: f32 = 1.75;
 /// Greatest share of the picture's height that a body in the middle of the crowd takes.
 const BODY_SHARE: f32 = 0.5;
 /// Distance before the eye from which on bodies are framed, m.
 const NEAR_M: f32 = 1.0;
+
+/// Bodies that a view frames, all equally high.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FramedBodies<'a> {
+    pub(super) positions_m: &'a [Vec2],
+    pub(super) height_m: f32,
+}
 
 /// Direction of a view, and its focal length.
 #[derive(Clone, Copy, Debug)]
@@ -35,29 +40,29 @@ impl Framing {
 /// What a level view sees of bodies: slopes of each, sorted.
 pub(super) struct Slopes {
     ahead: Vec2,
+    /// Height of a body above the eye, and of the ground, m.
+    head_m: f32,
+    feet_m: f32,
     left: Vec<f32>,
-    feet: Vec<f32>,
-    heads: Vec<f32>,
-    /// Of one body, upright.
-    heights: Vec<f32>,
+    /// One over the depth, 1/m.
+    nearness: Vec<f32>,
 }
 
 impl Slopes {
     /// The slopes of bodies from an eye that looks in a level direction.
-    pub(super) fn new(eye_m: Vec3, ahead: Vec2, positions_m: &[Vec2]) -> Self {
-        let mut slopes = Self { ahead, left: Vec::new(), feet: Vec::new(), heads: Vec::new(), heights: Vec::new() };
-        for position_m in positions_m {
+    pub(super) fn new(eye_m: Vec3, ahead: Vec2, bodies: &FramedBodies) -> Self {
+        let (head_m, feet_m) = (bodies.height_m - eye_m.z, -eye_m.z);
+        let mut slopes = Self { ahead, head_m, feet_m, left: Vec::new(), nearness: Vec::new() };
+        for position_m in bodies.positions_m {
             let offset_m = *position_m - eye_m.truncate();
             let depth_m = offset_m.dot(ahead);
             if depth_m > NEAR_M {
                 slopes.left.push(ahead.perp_dot(offset_m) / depth_m);
-                slopes.feet.push(-eye_m.z / depth_m);
-                slopes.heads.push((BODY_M - eye_m.z) / depth_m);
-                slopes.heights.push(BODY_M / depth_m);
+                slopes.nearness.push(1.0 / depth_m);
             }
         }
-        for values in [&mut slopes.left, &mut slopes.feet, &mut slopes.heads, &mut slopes.heights] {
-            values.sort_by(f32::total_cmp);
+        for values in [&mut slopes.left, &mut slopes.nearness] {
+            values.sort_unstable_by(f32::total_cmp);
         }
         slopes
     }
@@ -79,7 +84,7 @@ impl Slopes {
             half = half.max(at.truncate().abs() / at.z.max(1e-3));
         }
         let proportion = size_px[0] as f32 / size_px[1] as f32;
-        let of_body = proportion * quantile(&self.heights, 0.5) / BODY_SHARE;
+        let of_body = proportion * (self.head_m - self.feet_m) * quantile(&self.nearness, 0.5) / BODY_SHARE;
         let tangent = (2.0 / FRAMED * half.x.max(proportion * half.y)).max(of_body);
         let focal_mm = (FILM_MM / tangent.max(1e-3)).floor().clamp(FOCAL_MM[0], FOCAL_MM[1]);
         Framing { direction, focal_mm }
@@ -89,7 +94,9 @@ impl Slopes {
     fn edges(&self, share: f32) -> [f32; 4] {
         let out = 1.0 - share;
         let [right, left] = [0.5 * out, 1.0 - 0.5 * out].map(|at| quantile(&self.left, at));
-        [right, left, quantile(&self.feet, out), quantile(&self.heads, share)]
+        // The slope of a point that is higher than the eye grows as it comes nearer; that of a lower one falls.
+        let high = quantile(&self.nearness, if self.head_m > 0.0 { share } else { out });
+        [right, left, self.feet_m * quantile(&self.nearness, share), self.head_m * high]
     }
 
     fn to_world(&self, left: f32, up: f32) -> Vec3 {

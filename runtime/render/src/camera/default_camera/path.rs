@@ -73,6 +73,6 @@ fn best_before(sums: &[f32], is_walled: impl Fn(usize) -> bool) -> (usize, f32) 
 }
 
 /// Index of the greatest value, the first of equals.
-fn greatest(values: &[f32]) -> usize {
+pub(super) fn greatest(values: &[f32]) -> usize {
     (1..values.len()).fold(0, |best, at| if values[at] > values[best] { at } else { best })
 }

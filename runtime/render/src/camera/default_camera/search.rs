@@ -1,9 +1,10 @@
 //! The choice of the default camera: of all candidates the one with the best score, the first of equals. World, metres.
 //!
 //! The score of a candidate is the geometric mean over moments of [`coarse_picture::score`], times its weight. All are
-//! scored by a few bodies at few moments; the best ones of each elevation again by more.
+//! scored by a few bodies at few moments; the best ones of each elevation again by more, in rounds.
 //!
-//! A camera stands still; it moves with the middle of the crowd where the crowd is seen better so, and no wall is in its way.
+//! A camera stands still; it moves with the middle of the crowd where the crowd is seen better so, and no wall is in its
+//! way. Both are judged as they film, at all moments.
 
 use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::scenario::{CameraKey, CameraSpec, KeyLine, Scenario};
@@ -12,20 +13,27 @@ use rayon::prelude::*;
 
 use crate::camera::default_camera::candidates::{Candidate, ELEVATION_COUNT, candidates, candidates_of_parts};
 use crate::camera::default_camera::coarse_picture::{self, coarse_size_px};
-use crate::camera::default_camera::crowd::{CrowdMoment, filmed_moving, filmed_still, read_moments, thinned};
-use crate::camera::default_camera::path::best_path;
+use crate::camera::default_camera::crowd::{
+    CrowdMoment, CrowdMoments, filmed_moving, filmed_still, read_moments, thinned,
+};
+use crate::camera::default_camera::framing::{FramedBodies, Framing};
+use crate::camera::default_camera::path::{best_path, greatest};
 use crate::camera::default_camera::walls::Walls;
 use crate::camera::placement::keyed_eye_and_target_m;
 use crate::error::RenderError;
+use crate::visibility::Lens;
 
 /// Name of the camera in captions.
 pub(crate) const DEFAULT_NAME: &str = "default";
 /// Number of moments, and of bodies of each, by which places are framed, about.
-const FRAMED: [usize; 2] = [12, 40];
-/// Number of moments, and of bodies of each, that all candidates are scored by, about.
-const COARSE: [usize; 2] = [6, 120];
-/// Number of candidates of each elevation that are scored by all moments.
-const FINALISTS: usize = 8;
+const FRAMED: [usize; 2] = [12, 20];
+/// Rounds of the choice: number of moments, and of bodies of each, by which candidates are scored, about; and the number
+/// of the best ones of each elevation that are left.
+const ROUNDS: [([usize; 2], usize); 2] = [([3, 40], 64), ([6, 120], 8)];
+/// Number of moments, and of bodies of each, by which those that are left are scored, about.
+const LAST_ROUND: [usize; 2] = [36, 250];
+/// Number of bodies by which a moving camera aims and is scored, about.
+const PATH_BODIES: [usize; 2] = [20, 120];
 /// Added to the score of each moment, so that one without a body does not decide alone.
 const UNSEEN: f32 = 0.02;
 /// Focal length where no body is ever present, mm.
@@ -44,99 +52,138 @@ pub(crate) fn default_camera(
     start_s: f64,
     size_px: [u32; 2],
 ) -> Result<CameraSpec, RenderError> {
-    let moments = read_moments(recording, start_s)?;
-    Ok(best_camera(&recording.header().scenario, moments, size_px))
+    let crowd = read_moments(recording, start_s)?;
+    Ok(best_camera(&recording.header().scenario, &crowd, size_px))
 }
 
 /// What all candidates are judged by.
 struct Filmed<'a> {
     walls: &'a Walls<'a>,
-    moments: Vec<CrowdMoment>,
+    crowd: CrowdMoments,
+    /// Height of the bodies, m.
+    height_m: f32,
     size_px: [u32; 2],
 }
 
-/// A candidate for each moment, and their score.
-type Choice = (Vec<Candidate>, f32);
-
 /// The best camera, for the bodies at each moment.
-fn best_camera(scenario: &Scenario, moments: Vec<CrowdMoment>, size_px: [u32; 2]) -> CameraSpec {
-    let (walls, size_px) = (Walls::new(scenario), coarse_size_px(size_px));
-    let still = Filmed { walls: &walls, moments: filmed_still(moments.clone()), size_px };
-    let moving = Filmed { walls: &walls, moments: filmed_moving(moments), size_px };
-    let [of_still, of_moving] = [still.best_place(), moving.best_path()];
-    let moves = MOVING * of_moving.1 > of_still.1;
-    let moving = moves.then(|| moving.free_camera(&of_moving.0)).flatten();
-    moving.unwrap_or_else(|| still.camera(&of_still.0))
+fn best_camera(scenario: &Scenario, crowd: &CrowdMoments, size_px: [u32; 2]) -> CameraSpec {
+    let (walls, size_px, height_m) = (Walls::new(scenario), coarse_size_px(size_px), crowd.height_m());
+    let [still, moving] =
+        [filmed_still, filmed_moving].map(|filmed| Filmed { walls: &walls, crowd: filmed(crowd), height_m, size_px });
+    let place = still.best_place();
+    let of_still = still.camera(&place);
+    let score = still.score_as_filmed(&of_still, &place) / MOVING;
+    let better = |path: Vec<Candidate>| {
+        let camera = moving.free_camera(&path)?;
+        (moving.score_as_filmed(&camera, &path) > score).then_some(camera)
+    };
+    moving.best_path(score).and_then(better).unwrap_or(of_still)
 }
 
 impl Filmed<'_> {
     /// Positions by which places are framed, from the middle of the crowd, m.
     fn framed_offsets_m(&self) -> Vec<Vec2> {
-        let offsets_m = |moment: &CrowdMoment| -> Vec<Vec2> {
-            moment.bodies.iter().map(|body| body.position_m - moment.centre_m).collect()
-        };
-        thinned(&self.moments, FRAMED).iter().flat_map(offsets_m).collect()
+        thinned(&self.key_moments(), FRAMED).iter().flat_map(offsets_m).collect()
     }
 
-    /// The best candidate for all moments.
-    fn best_place(&self) -> Choice {
-        let candidates = candidates_of_parts(&self.framed_offsets_m(), self.size_px);
-        let few = self.few();
-        let scores: Vec<f32> = candidates.par_iter().map(|candidate| few.score(candidate)).collect();
-        let mut finalists: Vec<usize> = Vec::new();
-        for elevation in 0..ELEVATION_COUNT {
-            let is_so_high = |at: &usize| candidates[*at].elevation == elevation;
-            let mut so_high: Vec<usize> = (0..candidates.len()).filter(is_so_high).collect();
-            so_high.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
-            finalists.extend(so_high.into_iter().take(FINALISTS));
+    fn framed<'a>(&self, positions_m: &'a [Vec2]) -> FramedBodies<'a> {
+        FramedBodies { positions_m, height_m: self.height_m }
+    }
+
+    fn key_moments(&self) -> Vec<CrowdMoment> {
+        self.crowd.keys().into_iter().map(|key| self.crowd.moments[key].clone()).collect()
+    }
+
+    /// The best candidate for all keys, at each of them.
+    fn best_place(&self) -> Vec<Candidate> {
+        let mut candidates = candidates_of_parts(&self.framed(&self.framed_offsets_m()), self.size_px);
+        let keys = self.key_moments();
+        for (counts, left) in ROUNDS {
+            let scores = self.scores(&candidates, &thinned(&keys, counts));
+            let mut order: Vec<usize> = (0..candidates.len()).collect();
+            order.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+            let mut ranks = [0; ELEVATION_COUNT];
+            order.retain(|at| {
+                let rank = &mut ranks[candidates[*at].elevation];
+                *rank += 1;
+                *rank <= left
+            });
+            order.sort_unstable();
+            candidates = order.into_iter().map(|at| candidates[at]).collect();
         }
-        finalists.sort_unstable();
-        let scores: Vec<f32> = finalists.par_iter().map(|at| self.score(&candidates[*at])).collect();
-        let best = (1..finalists.len()).fold(0, |best, at| if scores[at] > scores[best] { at } else { best });
-        (vec![candidates[finalists[best]]; self.moments.len()], scores[best])
+        let scores = self.scores(&candidates, &thinned(&keys, LAST_ROUND));
+        vec![candidates[greatest(&scores)]; keys.len()]
     }
 
-    /// The best candidates along the way of the crowd, with one focal length. At each moment they aim at its bodies.
-    fn best_path(&self) -> Choice {
-        let (place, _) = self.best_place();
-        let Some(Candidate { framing, .. }) = place.first().copied() else { return (Vec::new(), 0.0) };
-        let mut candidates = candidates(&self.framed_offsets_m(), self.size_px);
-        candidates.iter_mut().for_each(|candidate| candidate.framing.focal_mm = framing.focal_mm);
-        let few = thinned(&self.moments, [self.moments.len().max(1), COARSE[1]]);
-        let aimed = |at: usize| -> Vec<Candidate> {
-            let around = &few[at.saturating_sub(1)..(at + 2).min(few.len())];
-            let bodies = around.iter().flat_map(|moment| &moment.bodies);
-            let offsets_m: Vec<Vec2> = bodies.map(|body| body.position_m - few[at].centre_m).collect();
-            candidates.iter().map(|candidate| candidate.aimed(&offsets_m)).collect()
+    /// The best candidates along the way of the crowd, one a key, with one focal length. They aim at the bodies about
+    /// their key. None where the crowd is hardly seen better than with a score.
+    fn best_path(&self, score: f32) -> Option<Vec<Candidate>> {
+        let mut candidates = candidates(&self.framed(&self.framed_offsets_m()), self.size_px);
+        let logarithms = self.logarithms(&candidates, &thinned(&self.key_moments(), ROUNDS[1].0));
+        let greatest_at = |moment: usize| logarithms.iter().map(|of| of[moment]).fold(f32::NEG_INFINITY, f32::max);
+        let moment_count = logarithms[0].len();
+        let most = score_of((0..moment_count).map(greatest_at).sum::<f32>() / moment_count.max(1) as f32);
+        if most <= score {
+            return None;
+        }
+        let few = thinned(&self.crowd.moments, [self.crowd.moments.len().max(1), PATH_BODIES[1]]);
+        let keys = self.crowd.keys();
+        let sums: Vec<f32> = logarithms.iter().map(|of| of.iter().sum()).collect();
+        let Framing { focal_mm, .. } = candidates[greatest(&sums)].framing;
+        candidates.iter_mut().for_each(|candidate| candidate.framing.focal_mm = focal_mm);
+        let fewer = thinned(&few, [few.len().max(1), PATH_BODIES[0]]);
+        let aimed = |key: &usize| -> Vec<Candidate> {
+            let [before, after] = [key.saturating_sub(self.crowd.of_key), (key + self.crowd.of_key).min(few.len() - 1)];
+            let bodies = [before, *key, after].into_iter().flat_map(|at| &fewer[at].bodies);
+            let offsets_m: Vec<Vec2> = bodies.map(|body| body.position_m - few[*key].centre_m).collect();
+            candidates.iter().map(|candidate| candidate.aimed(&self.framed(&offsets_m))).collect()
         };
-        let aimed: Vec<Vec<Candidate>> = (0..few.len()).into_par_iter().map(aimed).collect();
-        let of_moment = |(moment, aimed): (&CrowdMoment, &Vec<Candidate>)| -> Vec<f32> {
-            aimed.iter().map(|candidate| self.logarithm(candidate, moment)).collect()
+        let aimed: Vec<Vec<Candidate>> = keys.par_iter().map(aimed).collect();
+        let of_key = |(key, aimed): (&usize, &Vec<Candidate>)| -> Vec<f32> {
+            let first = key.saturating_sub(self.crowd.of_key / 2);
+            let about = &few[first..(first + self.crowd.of_key).min(few.len())];
+            aimed.iter().map(|candidate| mean(&self.logarithms_of(candidate, about))).collect()
         };
-        let logarithms: Vec<Vec<f32>> = few.par_iter().zip(&aimed).map(of_moment).collect();
-        let path = best_path(&candidates, &few, &logarithms, self.walls);
-        let path: Vec<Candidate> = path.into_iter().zip(&aimed).map(|(at, aimed)| aimed[at]).collect();
-        let sum: f32 =
-            path.iter().zip(&self.moments).map(|(candidate, moment)| self.logarithm(candidate, moment)).sum();
-        let mean = sum / path.len().max(1) as f32;
-        (path, score_of(mean))
+        let logarithms: Vec<Vec<f32>> = keys.par_iter().zip(&aimed).map(of_key).collect();
+        let path = best_path(&candidates, &self.key_moments(), &logarithms, self.walls);
+        Some(path.into_iter().zip(&aimed).map(|(at, aimed)| aimed[at]).collect())
     }
 
-    /// The same with few bodies at few moments.
-    fn few(&self) -> Self {
-        Self { moments: thinned(&self.moments, COARSE), ..*self }
-    }
-
-    fn score(&self, candidate: &Candidate) -> f32 {
+    /// Scores of candidates by some moments.
+    fn scores(&self, candidates: &[Candidate], moments: &[CrowdMoment]) -> Vec<f32> {
         // The geometric mean: a crowd that is seen all the time counts more than one that is seen well for half of it.
-        let sum: f32 = self.moments.iter().map(|moment| self.logarithm(candidate, moment)).sum();
-        score_of(sum / self.moments.len().max(1) as f32)
+        self.logarithms(candidates, moments).iter().map(|of_moments| score_of(mean(of_moments))).collect()
     }
 
-    /// Logarithm of the score of a candidate at a moment.
-    fn logarithm(&self, candidate: &Candidate, moment: &CrowdMoment) -> f32 {
-        let lens = candidate.framing.lens(eye_m(moment, candidate), self.size_px);
-        libm::logf(candidate.weight * coarse_picture::score(&lens, self.walls, moment) + UNSEEN)
+    /// Logarithms of the scores of each candidate at each of some moments.
+    fn logarithms(&self, candidates: &[Candidate], moments: &[CrowdMoment]) -> Vec<Vec<f32>> {
+        candidates.par_iter().map(|candidate| self.logarithms_of(candidate, moments)).collect()
+    }
+
+    fn logarithms_of(&self, candidate: &Candidate, moments: &[CrowdMoment]) -> Vec<f32> {
+        let lens = |moment: &CrowdMoment| candidate.framing.lens(eye_m(moment, candidate), self.size_px);
+        moments.iter().map(|moment| self.logarithm(&lens(moment), candidate.weight, moment)).collect()
+    }
+
+    /// The score of a camera with a key for each of some candidates, at all moments.
+    fn score_as_filmed(&self, camera: &CameraSpec, choice: &[Candidate]) -> f32 {
+        let Some(tangent) = camera.width_tangent() else { return 0.0 };
+        let logarithm = |(index, moment): (usize, &CrowdMoment)| {
+            let [eye_m, target_m] = match camera.eye_m.zip(camera.look_at_m) {
+                Some((eye_m, target_m)) => [eye_m, target_m],
+                None => keyed_eye_and_target_m(camera, moment.time_s as f32),
+            };
+            let lens = Lens::perspective(self.size_px, eye_m, target_m, tangent);
+            let nearest = ((index + self.crowd.of_key / 2) / self.crowd.of_key).min(choice.len() - 1);
+            self.logarithm(&lens, choice[nearest].weight, moment)
+        };
+        let logarithms: Vec<f32> = self.crowd.moments.par_iter().enumerate().map(logarithm).collect();
+        score_of(mean(&logarithms))
+    }
+
+    /// Logarithm of the score of a lens at a moment.
+    fn logarithm(&self, lens: &Lens, weight: f32, moment: &CrowdMoment) -> f32 {
+        libm::logf(weight * coarse_picture::score(lens, self.walls, moment) + UNSEEN)
     }
 
     /// The camera of a path: smooth where no wall is in its way, else in straight lines; none where a wall is in their way, too.
@@ -166,7 +213,7 @@ impl Filmed<'_> {
             let look_at_m = eye_m + candidate.distance_m * candidate.framing.direction;
             CameraKey { time_s: moment.time_s as f32, eye_m, look_at_m, up: None }
         };
-        let keys: Vec<CameraKey> = self.moments.iter().zip(choice).map(key).collect();
+        let keys: Vec<CameraKey> = self.key_moments().iter().zip(choice).map(key).collect();
         let Some((first, candidate)) = keys.first().copied().zip(choice.first()) else {
             return CameraSpec { focal_mm: Some(EMPTY_MM), ..camera };
         };
@@ -178,9 +225,18 @@ impl Filmed<'_> {
     }
 }
 
+fn mean(values: &[f32]) -> f32 {
+    values.iter().sum::<f32>() / values.len().max(1) as f32
+}
+
 /// The score of which the mean logarithm is given.
 fn score_of(mean: f32) -> f32 {
     (libm::expf(mean) - UNSEEN).max(0.0)
+}
+
+/// Bodies of a moment from the middle of the crowd, m.
+fn offsets_m(moment: &CrowdMoment) -> Vec<Vec2> {
+    moment.bodies.iter().map(|body| body.position_m - moment.centre_m).collect()
 }
 
 fn eye_m(moment: &CrowdMoment, candidate: &Candidate) -> Vec3 {
@@ -192,7 +248,6 @@ mod tests {
     use super::*;
 
     use crate::camera::default_camera::crowd::CrowdBody;
-    use crate::visibility::Lens;
 
     const SIZE_PX: [u32; 2] = [1280, 720];
 
@@ -206,14 +261,15 @@ mod tests {
 
     /// The camera of a crowd that faces east, a second between the moments.
     fn camera(scenario: &Scenario, moments_m: &[Vec<Vec2>]) -> CameraSpec {
-        let body = |position_m: &Vec2| CrowdBody { position_m: *position_m, ahead: Vec2::X };
+        let body = |position_m: &Vec2| CrowdBody { position_m: *position_m, ahead: Vec2::X, height_m: 1.75 };
         let moment = |(index, positions_m): (usize, &Vec<Vec2>)| CrowdMoment {
             time_s: index as f64,
             centre_m: Vec2::ZERO,
             present: positions_m.len(),
             bodies: positions_m.iter().map(body).collect(),
         };
-        best_camera(scenario, moments_m.iter().enumerate().map(moment).collect(), SIZE_PX)
+        let moments = moments_m.iter().enumerate().map(moment).collect();
+        best_camera(scenario, &CrowdMoments { moments, of_key: 1 }, SIZE_PX)
     }
 
     /// The lens of a camera at each moment.
@@ -258,7 +314,7 @@ mod tests {
         let lens = lenses(&camera(&scenario, std::slice::from_ref(&positions_m)), 1)[0];
         let walls = Walls::new(&scenario);
         assert!(walls.hold(Vec3::new(low, low, 2.4)) && lens.eye_m.z > 3.5, "{lens:?}");
-        let is_seen = |position_m: &&Vec2| !walls.hide(lens.eye_m, position_m.extend(1.3));
+        let is_seen = |position_m: &&Vec2| walls.seen_from_m(lens.eye_m, **position_m, 1.75) < 1.3;
         assert_eq!(positions_m.iter().filter(is_seen).count(), 9, "{lens:?}");
     }
 
@@ -317,7 +373,7 @@ mod tests {
         let mut hidden = 0;
         for (lens, positions_m) in lenses(&camera, 44).iter().zip(&moments_m) {
             let chest_m = positions_m[0].extend(1.3);
-            hidden += usize::from(Walls::new(&scenario).hide(lens.eye_m, chest_m));
+            hidden += usize::from(Walls::new(&scenario).seen_from_m(lens.eye_m, positions_m[0], 1.75) > 1.3);
             let is_in = lens.to_px(chest_m).is_some_and(|px| px.cmpge(Vec2::ZERO).all() && px.cmple(lens.size()).all());
             assert!(is_in, "{chest_m} from {lens:?}");
         }

@@ -5,6 +5,7 @@ use fbcrowd_sim::scenario::Scenario;
 use glam::{Vec2, Vec3};
 
 use crate::camera::blocks::solids;
+use crate::camera::default_camera::wall_grid::{WallEdge, WallGrid};
 
 /// Least distance of an eye from walls, m.
 const GAP_M: f32 = 0.5;
@@ -19,7 +20,11 @@ struct Wall<'a> {
 }
 
 /// All walls of a scene.
-pub(super) struct Walls<'a>(Vec<Wall<'a>>);
+pub(super) struct Walls<'a> {
+    solids: Vec<Wall<'a>>,
+    edges: WallGrid,
+    highest_m: f32,
+}
 
 impl<'a> Walls<'a> {
     pub(super) fn new(scenario: &'a Scenario) -> Self {
@@ -28,12 +33,18 @@ impl<'a> Walls<'a> {
             let high_m = corners_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
             Wall { corners_m, height_m, low_m, high_m }
         };
-        Self(solids(scenario).map(wall).collect())
+        let solids: Vec<Wall> = solids(scenario).map(wall).collect();
+        let mut wall_edges = Vec::new();
+        for Wall { corners_m, height_m, .. } in &solids {
+            wall_edges.extend(edges(corners_m).map(|ends_m| WallEdge { ends_m, height_m: *height_m }));
+        }
+        let highest_m = solids.iter().map(|wall| wall.height_m).fold(0.0, f32::max);
+        Self { solids, edges: WallGrid::new(wall_edges), highest_m }
     }
 
     /// Whether a point is in a wall or close to one.
     pub(super) fn hold(&self, point_m: Vec3) -> bool {
-        self.0.iter().any(|wall| wall.holds(point_m))
+        self.solids.iter().any(|wall| wall.holds(point_m))
     }
 
     /// Whether the line between two places of an eye passes through a wall or close to one.
@@ -42,9 +53,32 @@ impl<'a> Walls<'a> {
         (0..=steps as u32).any(|step| self.hold(from_m.lerp(to_m, step as f32 / steps.max(1.0))))
     }
 
-    /// Whether a wall is between two points.
-    pub(super) fn hide(&self, eye_m: Vec3, at_m: Vec3) -> bool {
-        self.0.iter().any(|wall| wall.hides(eye_m, at_m))
+    /// Height over a point on the ground from which on walls do not hide it from an eye, m; from 0 to `most_m`.
+    pub(super) fn seen_from_m(&self, eye_m: Vec3, at_m: Vec2, most_m: f32) -> f32 {
+        if self.solids.is_empty() {
+            return 0.0;
+        }
+        let from_m = eye_m.truncate();
+        // Nearer to the eye, the line of sight to the ground is above all walls.
+        let under_walls = (self.highest_m / eye_m.z.max(self.highest_m)).max(1e-3);
+        let start_m = at_m.lerp(from_m, under_walls);
+        let ray = at_m - from_m;
+        let mut hidden_m = 0.0_f32;
+        for wall in self.edges.along([at_m, start_m]) {
+            let [from, to] = wall.ends_m;
+            let (side_from, side_to) = (ray.perp_dot(from - from_m), ray.perp_dot(to - from_m));
+            let edge = to - from;
+            let (side_eye, side_at) = (edge.perp_dot(from_m - from), edge.perp_dot(at_m - from));
+            if side_from * side_to < 0.0 && side_eye * side_at < 0.0 {
+                // The line over the top of the wall, a share of its length away.
+                let share = side_eye / (side_eye - side_at);
+                hidden_m = hidden_m.max(eye_m.z + (wall.height_m - eye_m.z) / share);
+                if hidden_m >= most_m {
+                    return most_m;
+                }
+            }
+        }
+        hidden_m
     }
 }
 
@@ -60,23 +94,6 @@ impl Wall<'_> {
         !is_apart
             && point_m.z < self.height_m + GAP_M
             && (polygon::contains(self.corners_m, on_ground_m) || edges(self.corners_m).any(is_near))
-    }
-
-    /// Whether the segment between two points passes through an edge below its top.
-    fn hides(&self, eye_m: Vec3, at_m: Vec3) -> bool {
-        let (from_m, to_m) = (eye_m.truncate(), at_m.truncate());
-        let is_apart = from_m.max(to_m).cmplt(self.low_m).any() || from_m.min(to_m).cmpgt(self.high_m).any();
-        let ray = to_m - from_m;
-        let crosses = |[from, to]: [Vec2; 2]| {
-            let (side_from, side_to) = (ray.perp_dot(from - from_m), ray.perp_dot(to - from_m));
-            let edge = to - from;
-            let (side_eye, side_at) = (edge.perp_dot(from_m - from), edge.perp_dot(to_m - from));
-            let share = side_eye / (side_eye - side_at);
-            side_from * side_to < 0.0
-                && side_eye * side_at < 0.0
-                && eye_m.z + share * (at_m.z - eye_m.z) < self.height_m
-        };
-        !is_apart && edges(self.corners_m).any(crosses)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Bodies in the cells of a sheet, from the side, from the front and from above. Poses in metres; positions on the sheet
 //! in pixels, y down.
 
-use glam::{Mat3, Quat, Vec2, Vec3};
-use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+use glam::{Mat3, Vec2, Vec3};
+use motiondb::body::{Pose, Skeleton};
 use tiny_skia::Pixmap;
 
 use crate::plots::database::stick_figure;
@@ -39,10 +39,7 @@ pub(crate) const VIEWS: [BodyView; 3] = [
 
 /// Scale at which a body of the skeleton fits into its cell.
 pub(crate) fn scale_px_m(skeleton: &Skeleton) -> f32 {
-    let rest = Pose { pelvis_m: skeleton.offsets_m[Joint::Pelvis.index()], rotations: [Quat::IDENTITY; JOINT_COUNT] };
-    let crown_m = skeleton.segment_ends_m[Joint::Head.index()];
-    let height_m = rest.forward_kinematics(skeleton).point_m(Joint::Head, crown_m).z;
-    SCALE_PX_M * (HEIGHT_MAX_M / height_m).min(1.0)
+    SCALE_PX_M * (HEIGHT_MAX_M / skeleton.height_m()).min(1.0)
 }
 
 /// Draws a pose as a stick figure with its root at `at_px`.

@@ -91,7 +91,7 @@ struct ExrArgs {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Camera view")]
 struct CameraArgs {
-    /// The camera; by default the scenario's first, else `default`, which frames the crowd at eye height.
+    /// The camera; by default the scenario's first, else `default`, which shows the crowd best.
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
     /// Take cameras from a TOML file with `[camera]` or `[[cameras]]`, such as a scenario, or from a GLB or glTF file;
