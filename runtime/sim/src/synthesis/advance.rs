@@ -32,7 +32,9 @@ impl Body {
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
         let feet_gathered = || feet_gathered(contact, root, &context.domain);
-        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
+        let rests = command.step_state.comes_to_rest(&reachable, &command.filter, &context.domain, &traits);
+        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, rests, feet_gathered, step.dt_s)
+        {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             let stance = stance_foot(phase);
             if let Some(action) = context.starts.fitting(command.filter.command, 1 - stance) {
@@ -47,8 +49,11 @@ impl Body {
         let current = motion.current(&context.db);
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
-        let rate_factor = phase_rate_factor(motion, &current, contact, root, *actual_mps, step);
-        motion.take_steps(root, target, rate_factor, context, step);
+        let (closes_feet, rate_factor) =
+            (command.step_state.closes_feet(), phase_rate_factor(motion, &current, contact, root, *actual_mps, step));
+        // A foot that closes does not wait until the root is over the other one.
+        let rate_factor = if closes_feet { rate_factor.max(1.0) } else { rate_factor };
+        motion.take_steps(root, target, rate_factor, closes_feet, context, step);
         let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);

@@ -173,6 +173,20 @@ fn a_stopped_body_stands_upright_on_its_feet() {
 }
 
 #[test]
+fn a_stopping_body_closes_its_feet_at_once() {
+    // The plan of an agent that has come to its goal fades by a factor of e in 0.4 s.
+    let plan = |time_s: f32, _: &Root| towards(0.0, 1.3 * libm::expf(((3.0 - time_s) / 0.4).min(0.0)));
+    for offset in 0..5 {
+        let walk = walk(8.0, DT_S, |time_s, root| plan(time_s - 0.1 * offset as f32, root));
+        let speeds_mps: Vec<f32> =
+            walk.steps.windows(2).map(|pair| (pair[1].0.position_m - pair[0].0.position_m).length() / DT_S).collect();
+        let last = |above_mps: f32| speeds_mps.iter().rposition(|&speed_mps| speed_mps > above_mps).unwrap();
+        let closing_s = DT_S * (last(1e-3) - last(0.5)) as f32;
+        assert!(closing_s < 0.8, "{offset}: the body rests {closing_s} s after 0.5 m/s");
+    }
+}
+
+#[test]
 fn the_head_leads_the_body_into_a_turn() {
     for (dt_s, angle_rad) in [(1.0 / 60.0, FRAC_PI_2), (DT_S, -0.8), (0.1, FRAC_PI_2), (DT_S, -2.0)] {
         let walk = walk(6.0, dt_s, |time_s, _| towards(if time_s < 2.0 { 0.0 } else { angle_rad }, 1.2));

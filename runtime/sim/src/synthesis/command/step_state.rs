@@ -34,6 +34,8 @@ const STATE_DURATION_S: f32 = 0.4;
 /// Time ahead at which a command that passes through rest is evaluated, s: the duration of a change from one side-step
 /// to the other at 2.5 m/s².
 const PASSING_TIME_S: f32 = 0.2;
+/// Time ahead at which a command that comes to rest is evaluated, s: the duration of the step that closes the feet.
+const CLOSING_STEP_S: f32 = 0.35;
 /// Greatest duration of the small steps by which a stopping body gathers its feet, s.
 const GATHERING_DURATION_MAX_S: f32 = 1.2;
 /// Share of the current velocity at which a body gathers its feet, unless the least steps are faster.
@@ -54,12 +56,20 @@ impl StepState {
     /// A body that stands and may start at once.
     pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, gathering_s: 0.0 };
 
-    /// Follows what the examples reach of the command, with hysteresis. `feet_gathered` returns whether the feet are
-    /// under the body. Returns whether the body starts to step.
-    pub(crate) fn follow(&mut self, reachable: &Reachable, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
+    /// Follows what the examples reach of the command, with hysteresis. `comes_to_rest` states whether the command will
+    /// rest by the end of a step, `feet_gathered` whether the feet are under the body. Returns whether the body starts to
+    /// step.
+    pub(crate) fn follow(
+        &mut self,
+        reachable: &Reachable,
+        comes_to_rest: bool,
+        feet_gathered: impl FnOnce() -> bool,
+        dt_s: f32,
+    ) -> bool {
         let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
         let may_change = self.duration_s >= STATE_DURATION_S;
-        let stop = !self.stands && (may_change && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
+        let rests = idle_share > STOP_IDLE_SHARE || comes_to_rest;
+        let stop = !self.stands && (may_change && rests || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && may_change && idle_share < START_IDLE_SHARE;
         self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
         if start || self.gathering_s > GATHERING_DURATION_MAX_S || stop && feet_gathered() {
@@ -80,6 +90,23 @@ impl StepState {
         } else {
             reachable
         }
+    }
+
+    /// Whether the command of a stepping body, slower than its least steps, will rest when the next step has landed.
+    pub(crate) fn comes_to_rest(
+        &self,
+        reachable: &Reachable,
+        filter: &CommandFilter,
+        domain: &BlendDomain,
+        traits: &Traits,
+    ) -> bool {
+        let slows_down = || domain.reachable_with(filter.ahead(CLOSING_STEP_S), traits.cadence);
+        !self.stands && reachable.idle_share > IDLE_SHARE_MAX && slows_down().idle_share > STOP_IDLE_SHARE
+    }
+
+    /// Whether the body steps only to bring its feet together.
+    pub(crate) fn closes_feet(&self) -> bool {
+        self.gathering_s > 0.0
     }
 
     /// Whether the body walks and its command continues the walk.
@@ -105,7 +132,7 @@ impl StepState {
         } else {
             reachable
         };
-        let playback_rate_min = if self.gathering_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
+        let playback_rate_min = if self.closes_feet() { 1.0 } else { PLAYBACK_RATE_MIN };
         // Standing lies at the origin, so a scaled point has the scaled share of steps.
         let stepping_share = (1.0 - steps.idle_share).max(1.0 - HALT_IDLE_SHARE);
         let scale = (playback_rate_min * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
@@ -139,6 +166,6 @@ mod tests {
         let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
         let reachable = Reachable { parameters, idle_share: 0.92, playback_rate: 1.0, ..Reachable::default() };
         let mut step_state = StepState::STANDING;
-        assert!(step_state.follow(&reachable, || true, 1.0 / 30.0));
+        assert!(step_state.follow(&reachable, false, || true, 1.0 / 30.0));
     }
 }

@@ -181,13 +181,14 @@ impl MotionState {
         root: &Root,
         target: Parameters,
         rate_factor: f32,
+        closes_feet: bool,
         context: &SynthesisContext,
         step: &TimeStep,
     ) {
         match self.transition {
             Some(played) => self.play(played, root.forward(), &context.db, step),
             None => {
-                self.time_steps(root, target, context, step);
+                self.time_steps(root, target, closes_feet, context, step);
                 self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
             }
         }
@@ -203,7 +204,14 @@ impl MotionState {
     }
 
     /// Lets the pace of the steps follow the motion, which moves toward a target, over one step.
-    fn time_steps(&mut self, root: &Root, target: Parameters, context: &SynthesisContext, step: &TimeStep) {
+    fn time_steps(
+        &mut self,
+        root: &Root,
+        target: Parameters,
+        closes_feet: bool,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
         let mean_hz = match self.deformed(context) {
             Some((base_walk, parameters)) => 1.0 / self.tempo(base_walk, parameters).phase_map().period_s,
             None => self.mix.strides_hz(&context.db),
@@ -213,6 +221,7 @@ impl MotionState {
             base_hz: self.traits.cadence * context.base_hz,
             velocity_mps: root.forward().rotate(self.drawn_mps(&context.db)),
             speed_to_come: target.velocity_mps().length() / context.base_mps,
+            closes_feet,
         };
         self.timing.follow(self.phase, &gait, step);
     }
