@@ -20,6 +20,19 @@ const BESIDE_ITERATIONS: usize = 16;
 const RATE_ITERATIONS: usize = 3;
 /// Distance from a query, divided by its length, below which the examples reach it.
 const REACHED: f32 = 1e-4;
+/// Planted share of an example, mean of both feet, below which it runs: at times no foot is on the ground.
+const RUN_PLANTED_SHARE: f32 = 0.5;
+/// Greatest rate at which walks play so that a curve needs no run: the cadence of slow walks becomes that of brisk ones.
+const CURVE_RATE_MAX: f32 = 1.35;
+/// Least speed to which a body slows down so that a curve needs no run, m/s: in a set without tight walks it still comes
+/// round the corner.
+const CURVE_MIN_MPS: f32 = 0.5;
+/// Share of the speed of the slowest run from which on a body may begin to run.
+const RUN_NEARLY: f32 = 0.75;
+/// Share of running above the usual one that is none: rounding.
+const RUN_TOLERANCE: f32 = 1e-3;
+/// Halvings of the interval in which the rate, or the speed, of a curve lies: to less than 1 %.
+const CURVE_HALVINGS: usize = 6;
 
 /// The blend domain of one database.
 #[derive(Clone, Debug)]
@@ -29,6 +42,10 @@ pub struct BlendDomain {
     parameters: Vec<Parameters>,
     /// Whether each example stands.
     stands: Vec<bool>,
+    /// Whether each example runs.
+    runs: Vec<bool>,
+    /// Speed of the slowest run, m/s.
+    run_min_mps: f32,
     /// Landmarks that measure how far a change of weights moves the pose.
     pub(crate) landmarks: PoseLandmarks,
     /// Cadence of straight walks over speed.
@@ -49,10 +66,10 @@ pub struct BlendDomain {
     pub standing_balls_m: [Vec3; 2],
 }
 
-/// The nearest point to a query that the examples reach.
+/// The nearest point to a query that a body reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reachable {
-    /// Its parameters: the query itself where that lies inside the hull.
+    /// Its parameters: the query itself where that lies inside the hull, and needs no run at the speed of a walk.
     pub parameters: Parameters,
     /// Share of standing examples.
     pub idle_share: f32,
@@ -67,6 +84,10 @@ impl BlendDomain {
     pub fn new(db: &MotionDb) -> Self {
         let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
         let greatest = |of: fn(&Parameters) -> f32| parameters.iter().map(of).fold(0.0, f32::max);
+        let runs: Vec<bool> = db.examples.iter().map(|example| example.planted_share < RUN_PLANTED_SHARE).collect();
+        let run_speeds_mps =
+            parameters.iter().zip(&runs).filter(|entry| *entry.1).map(|entry| entry.0.velocity_mps().length());
+        let run_min_mps = run_speeds_mps.fold(f32::INFINITY, f32::min);
         let stands: Vec<bool> = db.examples.iter().map(|example| example.key_times_s.is_none()).collect();
         let mut domain = Self {
             standing: Reachable::default(),
@@ -74,6 +95,8 @@ impl BlendDomain {
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
             stands,
+            runs,
+            run_min_mps,
             landmarks: PoseLandmarks::new(db),
             axis_scale: db.blend_space.scaled(Parameters::from_vec3(Vec3::ONE)),
             strafe_range_mps: strafe_range_mps(&parameters),
@@ -94,9 +117,9 @@ impl BlendDomain {
         domain
     }
 
-    /// The nearest point to a query that the examples reach.
+    /// The nearest point to a query that a body reaches.
     pub fn reachable(&self, query: Parameters) -> Reachable {
-        self.played(query, 1.0)
+        self.reachable_with(query, 1.0)
     }
 
     /// The nearest point to a query that a body reaches with `cadence` times the cadence of others. Where the examples
@@ -119,7 +142,46 @@ impl BlendDomain {
             let playback_rate = if quicker > reachable.playback_rate { quicker.min(1.0) } else { 1.0 };
             reachable = self.played(query, playback_rate);
         }
-        reachable
+        self.in_gait_of_speed(query, reachable)
+    }
+
+    /// What is reached of a query in the gait of its speed. Tight walks are slow, so the examples reach a quicker curve
+    /// only by running, at speeds at which nobody runs straight on. There walks of the same curve play more quickly
+    /// instead, and where these do not reach it, the body slows down, both within bounds.
+    fn in_gait_of_speed(&self, query: Parameters, reachable: Reachable) -> Reachable {
+        let fits = |found: &Reachable| {
+            let run_share = self.run_share(found);
+            run_share < RUN_TOLERANCE || run_share < self.usual_run_share(found.parameters) + RUN_TOLERANCE
+        };
+        if fits(&reachable) {
+            return reachable;
+        }
+        let (rate, quick) = (reachable.playback_rate, CURVE_RATE_MAX * reachable.playback_rate);
+        if fits(&self.played(query, quick)) {
+            return halved([rate, quick], |rate| self.played(query, rate), fits);
+        }
+        let slowed = |share: f32| Parameters {
+            speed_mps: share * query.speed_mps,
+            strafe_mps: share * query.strafe_mps,
+            ..query
+        };
+        let least = (CURVE_MIN_MPS / query.velocity_mps().length()).min(1.0);
+        halved([1.0, least], |share| self.played(slowed(share), quick), fits)
+    }
+
+    /// Greatest share of running at the speed of some parameters: that of a body that goes straight on; all from the
+    /// slowest run on.
+    fn usual_run_share(&self, parameters: Parameters) -> f32 {
+        let speed_mps = parameters.velocity_mps().length();
+        let straight_on = self.played(Parameters { speed_mps, ..Parameters::default() }, 1.0);
+        let near_run = (speed_mps / self.run_min_mps - RUN_NEARLY) / (1.0 - RUN_NEARLY);
+        self.run_share(&straight_on).max(near_run)
+    }
+
+    /// Share of the examples that run.
+    fn run_share(&self, reachable: &Reachable) -> f32 {
+        let Shares { examples, shares } = reachable.shares;
+        examples.into_iter().zip(shares).filter(|entry| self.runs[entry.0 as usize]).map(|entry| entry.1).sum()
     }
 
     /// The nearest point to a query that the examples reach at exactly this rate.
@@ -161,6 +223,25 @@ impl BlendDomain {
         let examples = shares.examples.into_iter().zip(shares.shares);
         examples.map(|(example, share)| share * self.parameters[example as usize].to_vec3()).sum()
     }
+}
+
+/// What is found at the first value from one end to the other that fits, or else at the other end.
+fn halved(
+    [mut unfit, mut fit]: [f32; 2],
+    find: impl Fn(f32) -> Reachable,
+    fits: impl Fn(&Reachable) -> bool,
+) -> Reachable {
+    let mut found = find(fit);
+    for _ in 0..CURVE_HALVINGS {
+        let middle = 0.5 * (unfit + fit);
+        let between = find(middle);
+        if fits(&between) {
+            (fit, found) = (middle, between);
+        } else {
+            unfit = middle;
+        }
+    }
+    found
 }
 
 fn strafe_range_mps(parameters: &[Parameters]) -> [f32; 2] {
@@ -227,5 +308,35 @@ mod tests {
         let db = standing::with_standing(Arc::new(without_idle()));
         let back = Parameters { speed_mps: -0.4, ..Parameters::default() };
         assert_eq!(BlendDomain::new(&db).reachable(back).idle_share, 1.0);
+    }
+    /// The test database, in which the spins are runs of 1.8 m/s.
+    fn with_tight_runs() -> MotionDb {
+        let mut db = test_db();
+        for (index, turn_rate_rad_s) in [(6, 1.6), (7, -1.6)] {
+            db.examples[index].parameters = Parameters { speed_mps: 1.8, turn_rate_rad_s, strafe_mps: 0.0 };
+            db.examples[index].planted_share = 0.35;
+        }
+        let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
+        db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
+        db
+    }
+
+    #[test]
+    fn nobody_runs_round_a_corner_at_the_speed_of_a_walk() {
+        let domain = BlendDomain::new(&with_tight_runs());
+        let reached = |speed_mps: f32, turn_rate_rad_s: f32| {
+            let found = domain.reachable(Parameters { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 });
+            let Parameters { speed_mps, turn_rate_rad_s, .. } = found.parameters;
+            (speed_mps, turn_rate_rad_s, found.playback_rate, domain.run_share(&found))
+        };
+        // The walks lead straight on, or round a curve at 0.7 m/s and 1.2 rad/s.
+        let (speed_mps, turn_rate_rad_s, rate, run_share) = reached(0.85, 1.3);
+        assert!((speed_mps - 0.85).abs() < 1e-3 && (turn_rate_rad_s - 1.3).abs() < 1e-3);
+        assert!(rate > 1.05 && rate < CURVE_RATE_MAX && run_share < 0.01, "{rate}, {run_share}");
+        let (speed_mps, turn_rate_rad_s, rate, run_share) = reached(1.2, 1.55);
+        assert!((0.8..1.1).contains(&speed_mps) && (turn_rate_rad_s - 1.55).abs() < 0.02, "{speed_mps}");
+        assert!(rate == CURVE_RATE_MAX && run_share < 0.02, "{rate}, {run_share}");
+        let (speed_mps, _, rate, run_share) = reached(1.8, 1.6);
+        assert!((speed_mps - 1.8).abs() < 1e-3 && rate == 1.0 && run_share > 0.99);
     }
 }

@@ -2,12 +2,13 @@
 //! speed of the pose.
 //!
 //! The root moves straight from its current parameters towards the target. The shares are those of the next point on
-//! the line, so a body passes the examples between. In two cases the shares move to those at the target instead:
+//! the line, so a body passes the examples between. In three cases the shares move to those at the target instead:
 //!
 //! - where simplices are slim, poses differ much from one such point to the next, and following them would take too
 //!   long;
 //! - where the line passes rest, near which the examples have no steps: a body that reverses would otherwise keep the
-//!   least steps of its old direction.
+//!   least steps of its old direction;
+//! - where a body at the next point would slow down so that it need not run: one that is to run would never come there.
 //!
 //! Parameters (v_f, ω_t, ω_s), m/s and rad/s.
 
@@ -19,12 +20,17 @@ use crate::synthesis::command::acceleration_limit::limited_along_line;
 use crate::synthesis::command::step_state::{PLAYBACK_RATE_MIN, StepState};
 use crate::synthesis::{SynthesisContext, Traits};
 
+/// Distance from a point up to which a body reaches it, m/s and rad/s.
+const REACHED: f32 = 0.01;
+
 /// Shares and playback rate to move to.
 struct ShareTarget {
     shares: Shares,
     playback_rate: f32,
     /// Whether the playback rate is the least.
     creeps: bool,
+    /// Whether a body does not reach the point.
+    falls_short: bool,
     /// Fraction of the change of shares in this step.
     fraction: f32,
     /// Fraction of the line to the target that the root then has passed.
@@ -56,13 +62,15 @@ pub(crate) fn follow(
             shares,
             playback_rate: slowing * reachable.playback_rate,
             creeps: slowing <= PLAYBACK_RATE_MIN,
+            falls_short: reachable.parameters.to_vec3().distance(point.to_vec3()) > REACHED,
             fraction,
             passed: fraction * part,
         }
     };
     let near = share_target(next, next_part);
-    let far = (next != target && (near.creeps || near.fraction < 1.0)).then(|| share_target(target, 1.0));
-    let far = far.filter(|far| near.creeps || far.passed > near.passed);
+    let must_pass = near.creeps || near.falls_short;
+    let far = (next != target && (must_pass || near.fraction < 1.0)).then(|| share_target(target, 1.0));
+    let far = far.filter(|far| must_pass || far.passed > near.passed);
     let ShareTarget { shares, playback_rate, fraction, .. } = far.unwrap_or(near);
     mix.approach(&shares, playback_rate, fraction);
 }
