@@ -70,6 +70,7 @@ impl Body {
         let feet = FootMotion {
             planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
             contacts_ahead: contacts_ahead(&active, motion, context),
+            turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
             is_new: motion.has_jumped,
         };
         contact.lock_feet(&mut posture, &feet, &frame, skeleton, step);

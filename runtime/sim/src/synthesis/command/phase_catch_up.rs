@@ -86,7 +86,7 @@ mod tests {
                 if since == 0 {
                     *foot = FootLock::new(&posed(time_s));
                 }
-                let locked = foot.step(&posed(time_s), true, 1.0, Vec2::ZERO, &step);
+                let locked = foot.step(&posed(time_s), true, 1.0, Vec2::ZERO, 0.0, &step);
                 let moved_m = locked.ankle_m - posed(time_s).ankle_m;
                 foot.record_drawn(posed(time_s).sole_m.map(|point_m| point_m + moved_m), &step);
             });

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use motiondb::body::{RootFrame, Skeleton};
 
 use crate::synthesis::TimeStep;
-use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot};
+use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot, pivot_rate_rad_s};
 use crate::synthesis::pose::leg::FootPose;
 use crate::synthesis::pose::leg_clearance::away_m;
 use crate::synthesis::pose::pelvis::PelvisDrop;
@@ -38,7 +38,7 @@ impl ContactState {
         skeleton: &Skeleton,
         step: &TimeStep,
     ) {
-        let soles_m = posture.soles_m(skeleton);
+        let (soles_m, pivot_rad) = (posture.soles_m(skeleton), step.dt_s * pivot_rate_rad_s(motion.turn_rate_rad_s));
         // The stance foot first: the other one avoids it.
         let first = usize::from(!self.locks[0].planted());
         let mut locked = posture.feet;
@@ -48,7 +48,8 @@ impl ContactState {
             let passes = side != first && self.locks[first].planted();
             let away_m = || away_m(side, foot.ankle_m, other.ankle_m, locked[first].ankle_m);
             let away_m = if passes { frame.forward.rotate(away_m()) } else { Vec2::ZERO };
-            let lock = self.locks[side].step(&posed, motion.planted[side], motion.contacts_ahead[side], away_m, step);
+            let (planted, ahead) = (motion.planted[side], motion.contacts_ahead[side]);
+            let lock = self.locks[side].step(&posed, planted, ahead, away_m, pivot_rad, step);
             locked[side] =
                 FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
         }
@@ -70,6 +71,8 @@ pub(crate) struct FootMotion {
     pub(crate) planted: [bool; 2],
     /// Contact of each foot [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
     pub(crate) contacts_ahead: [f32; 2],
+    /// Turn rate of the body, rad/s.
+    pub(crate) turn_rate_rad_s: f32,
     /// Whether this is the first step after a switch.
     pub(crate) is_new: bool,
 }

@@ -5,7 +5,8 @@
 //! horizontal shift c, a twist ψ about the vertical, and a lift.
 //!
 //! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point
-//!   rests; the foot still rolls, because the pose determines its pitch.
+//!   rests; the foot still rolls, because the pose determines its pitch. In tight turns the foot pivots a little on its
+//!   ball.
 //! - *Swinging*: c and ψ decay, c to a shift that avoids the other leg ([`crate::synthesis::pose::leg_clearance`]),
 //!   by a critically damped filter of the third order that starts at their rates. Neither
 //!   velocity nor acceleration of the foot jumps at toe-off.
@@ -34,6 +35,11 @@ const CLEARANCE_SOFTNESS_M: f32 = 0.002;
 const SHIFT_MAX_M: f32 = 0.35;
 /// Greatest twist ψ, rad: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
+
+/// Turn rate of the body beyond which its planted feet pivot, rad/s, and the share of what is beyond by which they do:
+/// flat feet of captures pivot by 1.5 to 8° a contact at 170 °/s.
+const PIVOT_FROM_RAD_S: f32 = std::f32::consts::FRAC_PI_2;
+const PIVOT_SHARE: f32 = 0.25;
 
 /// A foot of the pose, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,6 +88,11 @@ pub(crate) struct FootLock {
     speed_mps: f32,
 }
 
+/// Rate at which the planted feet of a body pivot that turns at `turn_rate_rad_s`, rad/s.
+pub(crate) fn pivot_rate_rad_s(turn_rate_rad_s: f32) -> f32 {
+    PIVOT_SHARE * (turn_rate_rad_s.abs() - PIVOT_FROM_RAD_S).max(0.0).copysign(turn_rate_rad_s)
+}
+
 /// Target of a locked foot, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LockedFoot {
@@ -99,20 +110,22 @@ impl FootLock {
     }
 
     /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later,
-    /// `away_m` the shift to which a swinging foot moves because the other leg stands in its path.
+    /// `away_m` the shift to which a swinging foot moves because the other leg stands in its path, `pivot_rad` the angle
+    /// by which a planted foot pivots.
     pub(crate) fn step(
         &mut self,
         posed: &PosedFoot,
         planted: bool,
         contact_ahead: f32,
         away_m: Vec2,
+        pivot_rad: f32,
         step: &TimeStep,
     ) -> LockedFoot {
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
         // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
         if planted && self.planted {
-            self.hold(posed, lowest, angle_between_rad(self.heading_m, heading_m), step);
+            self.hold(posed, lowest, [angle_between_rad(self.heading_m, heading_m), pivot_rad], step);
         } else {
             self.release(away_m, step);
             self.land(posed, lowest, step);
@@ -144,10 +157,13 @@ impl FootLock {
         self.sole_m = sole_m;
     }
 
-    /// Cancels the turning of the foot, then the motion of its lowest point, which the twist moves about the ankle.
-    fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, step: &TimeStep) {
+    /// Cancels the turning of the foot but for its pivot, then the motion of its lowest point, which the twist moves about
+    /// the ankle.
+    fn hold(&mut self, posed: &PosedFoot, lowest: usize, [turned_rad, pivot_rad]: [f32; 2], step: &TimeStep) {
         let (before_m, before_rad) = (self.shift_m[0], self.twist_rad[0]);
-        let twist_rad = (before_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
+        // On the heel a foot does not pivot.
+        let pivot_rad = if lowest == 0 { 0.0 } else { pivot_rad };
+        let twist_rad = (before_rad - turned_rad + pivot_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
         self.twist_rad = [twist_rad, (twist_rad - before_rad) / step.dt_s, 0.0];
         let [landing_left, _] = step.landing_left;
         let slid_m = LANDING_TIME_S * (1.0 - landing_left) * self.landing_mps;
@@ -206,5 +222,33 @@ impl FootLock {
         let whole_m = CLEARANCES_M[0] + quickness * (CLEARANCES_M[1] - CLEARANCES_M[0]);
         let clearance_m = whole_m * (1.0 - contact_ahead) * (self.speed_mps / LIFTED_SPEED_MPS).min(1.0);
         CLEARANCE_SOFTNESS_M * soft_maximum((clearance_m - height_m) / CLEARANCE_SOFTNESS_M)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pivot, degrees, and way of the ball, m, in 0.3 s of a body that turns on a foot with its heel at a height.
+    fn pivot(turn_rate_deg_s: f32, heel_m: f32, dt_s: f32) -> [f32; 2] {
+        let sole_m = [(-0.05, heel_m), (0.13, 0.0), (0.2, 0.0)].map(|(along_m, z)| Vec3::new(along_m, 0.0, z));
+        let posed = PosedFoot { ankle_m: Vec3::new(0.0, 0.0, 0.07), sole_m };
+        let (mut lock, step) = (FootLock { planted: true, ..FootLock::new(&posed) }, TimeStep::new(dt_s));
+        let pivot_rad = dt_s * pivot_rate_rad_s(turn_rate_deg_s.to_radians());
+        for _ in 0..(0.3 / dt_s).round() as usize {
+            let locked = lock.step(&posed, true, 1.0, Vec2::ZERO, pivot_rad, &step);
+            lock.record_drawn(sole_m.map(|point_m| locked.ankle_m + locked.twist * (point_m - posed.ankle_m)), &step);
+        }
+        let heading_m = lock.sole_m[1] - lock.sole_m[0];
+        [libm::atan2f(heading_m.y, heading_m.x).to_degrees(), lock.sole_m[1].distance(sole_m[1])]
+    }
+
+    #[test]
+    fn a_foot_pivots_on_its_ball_in_tight_turns_alone() {
+        for dt_s in [1.0 / 120.0, 1.0 / 60.0, 1.0 / 30.0] {
+            let [pivot_deg, moved_m] = pivot(-170.0, 0.005, dt_s);
+            assert!((pivot_deg + 6.0).abs() < 0.1 && moved_m < 1e-4, "dt {dt_s}: {pivot_deg}°, {moved_m} m");
+            assert!(pivot(80.0, 0.005, dt_s).iter().chain(&pivot(170.0, 0.0, dt_s)).all(|off| off.abs() < 1e-3));
+        }
     }
 }
