@@ -1,11 +1,11 @@
 //! How far the planned facing is ahead of the body's (our addition to `FbCrowd` §4.5).
 //!
 //! Synthesis turns a body to the planned facing within T_turn = 0.3 s. In a queue the preferred facing jumps whenever the
-//! velocity does, by 60 to 120°, and bodies would turn as suddenly. People turn at rest by taking steps, and faster the
-//! faster they walk. So the planned facing is ahead of the body's facing by
+//! velocity does, by 60 to 120°, and bodies would turn as suddenly. People turn at rest by taking steps, which they do
+//! not for a small angle, and faster the faster they walk. So the planned facing is ahead of the body's facing by
 //!
 //! ```text
-//! min(α·min(1, s_0 + s_1·v), a_0 + a_1·v)
+//! min(β·min(1, s_0 + s_1·v), a_0 + a_1·v),   β = max(0, α − d_0·max(0, 1 − v/v_0))
 //! ```
 //!
 //! where α is the angle to the preferred facing and v the body's speed. World axes, m/s, radians.
@@ -21,9 +21,16 @@ const AHEAD_AT_REST_RAD: f32 = 0.35;
 /// a_1: how much that angle grows with the speed, rad/(m/s).
 const AHEAD_RAD_PER_MPS: f32 = 0.15;
 
+/// d_0: angle to the preferred facing for which a standing body does not turn, rad: 17°.
+const TOLERANCE_AT_REST_RAD: f32 = 0.3;
+/// v_0: speed from which on a body turns for any angle, m/s.
+const TURNS_AT_MPS: f32 = 0.8;
+
 /// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`. Unit vectors.
 pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32) -> Vec2 {
     let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
+    let tolerance_rad = TOLERANCE_AT_REST_RAD * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
+    let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
     let share = (SHARE_AT_REST + SHARE_PER_MPS * speed_mps).min(1.0);
     let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps;
     let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
@@ -56,6 +63,12 @@ mod tests {
                 assert!((ahead_rad(-facing_rad, speed_mps) + expected_rad).abs() < 1e-5);
             }
         }
+    }
+
+    #[test]
+    fn standing_body_does_not_turn_for_a_small_angle() {
+        assert_eq!(ahead_rad(0.25, 0.0), 0.0);
+        assert!(ahead_rad(0.25, 0.4) > 0.03 && ahead_rad(-0.25, 0.4) < -0.03);
     }
 
     #[test]
