@@ -183,7 +183,8 @@ fn imported_clip(motion: SourceMotion, settings: &ClipSettings, has_several: boo
 /// Steps 2 to 7 for one clip.
 fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> Result<HumanClip, RejectionReason> {
     if motion.frame_count() == 0 {
-        return Err(RejectionReason::Motionless);
+        let has_pointers = motion.head.diagnostics.contains(&Diagnostic::Note(Note::PointersNotRead));
+        return Err(if has_pointers { RejectionReason::PointersOnly } else { RejectionReason::Motionless });
     }
     settings.apply_to(&mut motion)?;
     if motion.frame_count() < MIN_FRAMES {

@@ -157,6 +157,14 @@ fn text_after_the_last_row_is_not_motion() {
 }
 
 #[test]
+fn comments_before_the_rows_do_not_matter() {
+    let plain = imported(&bvh_text()).unwrap();
+    let text = bvh_text().replace("HIERARCHY", "# exported by 1.2\n\n// rig 3\nHIERARCHY");
+    let text = text.replace("MOTION", "  # motion\nMOTION\n// 40 rows").replace("Frame Time", "# time\nFrame Time");
+    assert_eq!(imported(&text).unwrap().frames, plain.frames);
+}
+
+#[test]
 fn a_walk_at_twice_its_rate_is_inhuman() {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips"));
     let is_inhuman = |clip: &str, rate: f64| {
