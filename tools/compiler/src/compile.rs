@@ -174,7 +174,8 @@ fn style_database(
     observer: &Observer,
 ) -> Result<MotionDb, CompileError> {
     let cut = idles(&clips, &analyzed, body);
-    let adding = windows_that_add(without_reached_doubtful(&clips, analyzed));
+    let clean = if options.keep_doubtful { analyzed } else { without_reached_doubtful(&clips, analyzed) };
+    let adding = windows_that_add(clean);
     let named = named_cycles(&clips, &adding, body)?;
     let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);

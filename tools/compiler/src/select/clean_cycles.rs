@@ -82,6 +82,7 @@ mod tests {
 
     use super::*;
     use crate::synthetic::{SyntheticWalk, database_of, performance, recorded, walk};
+    use crate::{Options, compile};
 
     fn at(name: &str, speed_mps: f64, turn_rate_rad_s: f64, period_s: f64) -> HumanClip {
         walk(name, SyntheticWalk { period_s, ..SyntheticWalk::at(speed_mps, turn_rate_rad_s, 0.0) })
@@ -121,6 +122,14 @@ mod tests {
         check(vec![at("turn", 1.4, 0.9, 1.1), airborne("airborne", 0.8)], &["airborne", "turn"]);
         let run = walk("run", SyntheticWalk { period_s: 0.9, ..SyntheticWalk::at(2.2, 0.0, 0.0) });
         check(vec![run, airborne("airborne", 1.3)], &["airborne", "run"]);
+    }
+
+    #[test]
+    fn a_doubtful_walk_that_is_to_be_kept_stays() {
+        let clips = vec![at("clean", 1.4, 0.0, 1.1), airborne("airborne", 0.8)];
+        let options = Options { keep_doubtful: true, ..Options::default() };
+        let db = compile(clips, &options, &|_| ()).unwrap();
+        assert_eq!(recorded(&db).len(), 2, "{:?}", db.sources);
     }
 
     #[test]
