@@ -318,6 +318,10 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
              steadier part",
         ),
         (
+            Unfit::CleanerClips,
+            "clips with cleaner feet reach its speed and give the examples in its place; repair its feet, or leave it out",
+        ),
+        (
             Unfit::MovesLengthwise,
             "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a clip \
              of walking or standing",
@@ -413,6 +417,7 @@ const NUMBERED: [&[&str]; 3] = [
         "arms_out",
         "arm_raised",
         "cycle_open",
+        "cleaner_clips",
     ],
 ];
 

@@ -118,6 +118,8 @@ pub enum Unfit {
         /// Greatest turn from pose to pose within the cycle, rad.
         largest_rad: f32,
     },
+    /// Feet slide or are hardly planted, and a blend of clips with cleaner feet reaches the same parameters.
+    CleanerClips,
 }
 
 impl Unfit {
@@ -143,6 +145,7 @@ impl Unfit {
             Self::ArmsOut => "arms_out",
             Self::ArmRaised => "arm_raised",
             Self::CycleOpen { .. } => "cycle_open",
+            Self::CleanerClips => "cleaner_clips",
         }
     }
 }
@@ -214,6 +217,10 @@ impl fmt::Display for Unfit {
                  use a steadier part",
                 seam_rad.to_degrees(),
                 largest_rad.to_degrees()
+            ),
+            Self::CleanerClips => out.write_str(
+                "clips with cleaner feet reach its speed and give the examples in its place; repair its feet, or leave it \
+                 out",
             ),
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \

@@ -27,6 +27,7 @@ use crate::input::options::Options;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::best_windows::{best_windows, windows_that_add};
+use crate::select::clean_cycles::without_reached_doubtful;
 use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
@@ -101,7 +102,7 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
 /// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
 ///    duplicates ([`crate::dedup`]).
 /// 4. Cut the idles (`action`).
-/// 5. Keep the windows that add to the set ([`crate::select`]).
+/// 5. Drop doubtful cycles that clean ones reach, and windows that add nothing to the set ([`crate::select`]).
 /// 6. Close the standing cycles with the period of m_sp; name all.
 /// 7. Limit the number of examples, add mirrors, sort by name.
 /// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
@@ -173,7 +174,8 @@ fn style_database(
     observer: &Observer,
 ) -> Result<MotionDb, CompileError> {
     let cut = idles(&clips, &analyzed, body);
-    let adding = windows_that_add(analyzed);
+    let clean = if options.keep_doubtful { analyzed } else { without_reached_doubtful(&clips, analyzed) };
+    let adding = windows_that_add(clean);
     let named = named_cycles(&clips, &adding, body)?;
     let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);

@@ -14,6 +14,7 @@
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
+use glam::DQuat;
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
@@ -182,13 +183,14 @@ fn imported_clip(motion: SourceMotion, settings: &ClipSettings, has_several: boo
 /// Steps 2 to 7 for one clip.
 fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> Result<HumanClip, RejectionReason> {
     if motion.frame_count() == 0 {
-        return Err(RejectionReason::Motionless);
+        let has_pointers = motion.head.diagnostics.contains(&Diagnostic::Note(Note::PointersNotRead));
+        return Err(if has_pointers { RejectionReason::PointersOnly } else { RejectionReason::Motionless });
     }
     settings.apply_to(&mut motion)?;
     if motion.frame_count() < MIN_FRAMES {
         return Err(RejectionReason::TooShort);
     }
-    let (mut clip, mut roles) = clip_with_roles(motion, settings)?;
+    let (mut clip, mut roles, rest_offset) = clip_with_roles(motion, settings)?;
     if lacks_rotations(&clip, &roles) {
         return Err(RejectionReason::NoRotations);
     }
@@ -229,6 +231,9 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
+    if let Some(head) = &mut human.rig_head {
+        head.rest_offset = rest_offset;
+    }
     human.unfit = unfit;
     human.jumps = jumps.into_iter().map(|jump| jump.frames).collect();
     human.choices.takes_any_posture = settings.takes_any_posture;
@@ -243,11 +248,16 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
 
 /// The joints that have roles and the extra joints, in all frames, and their roles. Memory: the poses of all joints never
 /// exist at once.
-fn clip_with_roles(mut motion: SourceMotion, settings: &ClipSettings) -> Result<(SourceClip, Roles), RejectionReason> {
+fn clip_with_roles(
+    mut motion: SourceMotion,
+    settings: &ClipSettings,
+) -> Result<(SourceClip, Roles, Option<DQuat>), RejectionReason> {
     let known = settings.joint_map(&motion.head)?;
     rig::check_size(&motion.head)?;
     let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
     let mut roles = rig::find_roles(&sample, &known)?;
+    let rest = motion.rest();
+    let rest_offset = rig::rest_head::rest_offset(&motion.head.joints, &rest, &roles);
     let extra = extra_joints(&sample, &roles);
     roles.extra = extra.kept;
     let left_out = Note::JointsLeftOut { moving: extra.left_out as u32, kept: roles.extra.len() as u32 };
@@ -262,7 +272,7 @@ fn clip_with_roles(mut motion: SourceMotion, settings: &ClipSettings) -> Result<
         motion.into_clip(&kept)?
     };
     clip.diagnostics.extend(left_out);
-    Ok((clip, roles))
+    Ok((clip, roles, rest_offset))
 }
 
 /// Removes poses that are not part of the motion, unless a manifest selects the frames, and returns the whole-clip

@@ -22,7 +22,7 @@ use crate::{Options, compile};
 
 /// Height of the ankle above the sole, m.
 const ANKLE_M: f64 = 0.09;
-/// Share of the period that each foot is planted.
+/// Share of the period that each foot of an ordinary walk is planted.
 const PLANTED_SHARE: f64 = 0.6;
 
 /// The plan of a synthetic walk.
@@ -34,6 +34,8 @@ pub(crate) struct SyntheticWalk {
     pub(crate) period_s: f64,
     /// Share of the period from right to left mid-stance.
     pub(crate) left_share: f64,
+    /// Share of the period that each foot is planted.
+    pub(crate) planted_share: f64,
     /// Duration of the clip, s.
     pub(crate) duration_s: f64,
     /// Frames per second.
@@ -52,7 +54,8 @@ impl SyntheticWalk {
     /// Four seconds at 60 frames per second, at these rates.
     pub(crate) fn at(speed_mps: f64, turn_rate_rad_s: f64, strafe_mps: f64) -> Self {
         let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps };
-        Self { rates, period_s: 1.1, left_share: 0.5, duration_s: 4.0, frame_rate_hz: 60.0, size: 1.0 }
+        let planted_share = PLANTED_SHARE;
+        Self { rates, period_s: 1.1, left_share: 0.5, planted_share, duration_s: 4.0, frame_rate_hz: 60.0, size: 1.0 }
     }
 }
 
@@ -219,7 +222,7 @@ fn pose(walk: &SyntheticWalk, body: &HumanBody, arc: &RootArc, time_s: f64) -> H
 fn place_foot(pose: &mut HumanPose, walk: &SyntheticWalk, body: &HumanBody, arc: &RootArc, side: usize, cycles: f64) {
     let stance = libm::floor(cycles + 0.5);
     let from_mid = cycles - stance;
-    let swing = ((from_mid.abs() - 0.5 * PLANTED_SHARE) / (1.0 - PLANTED_SHARE)).max(0.0) * from_mid.signum();
+    let swing = ((from_mid.abs() - 0.5 * walk.planted_share) / (1.0 - walk.planted_share)).max(0.0) * from_mid.signum();
     let first_mid_stance = if side == 0 { walk.left_share } else { 0.0 };
     let print = |stance: f64| {
         let (root_m, facing) = arc.at((stance + first_mid_stance + 0.37) * walk.period_s);

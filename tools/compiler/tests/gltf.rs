@@ -249,6 +249,24 @@ fn animation_pointers_are_skipped_with_a_note() {
 }
 
 #[test]
+fn an_animation_of_pointers_alone_is_rejected_with_its_reason() {
+    let mut document = Document::walker();
+    for channel in document.json["animations"][0]["channels"].as_array_mut().unwrap() {
+        let pointer = json!({ "pointer": format!("/nodes/{}/rotation", channel["target"]["node"]) });
+        channel["target"] = json!({ "path": "pointer", "extensions": { "KHR_animation_pointer": pointer } });
+    }
+    assert_eq!(document.imports().remove(0).outcome.unwrap_err(), RejectionReason::PointersOnly);
+}
+
+#[test]
+fn a_scene_may_have_no_nodes() {
+    let mut document = Document::walker();
+    document.push("scenes", json!({ "name": "empty" }));
+    document.push("scenes", json!({}));
+    check_walks(&document.only());
+}
+
+#[test]
 fn a_repeated_key_is_rejected() {
     let text = Document::walker().gltf();
     let twice = String::from_utf8(text).unwrap().replacen('{', r#"{"asset": {"version": "2.0"}, "#, 1);

@@ -26,13 +26,17 @@ const TOLERANCE_DEG: f32 = 3.0;
 
 /// The clip with its head pitched down by an angle in the whole clip, on a rig of which the head's axes are turned.
 fn imported(clip: &str, down_rad: f64, rig_turn: DQuat) -> HumanClip {
+    written(clip, &with_bent_head(clip, down_rad, rig_turn))
+}
+
+fn with_bent_head(clip: &str, down_rad: f64, rig_turn: DQuat) -> Performance {
     let mut body = Performance::read(clip);
     for pose in &mut body.poses {
         let across = across(pose);
         let head = &mut pose.turns[part("Head")];
         *head = DQuat::from_axis_angle(across, down_rad) * *head * rig_turn;
     }
-    written(clip, &body)
+    body
 }
 
 /// The left of a body that is upright.
@@ -40,9 +44,13 @@ fn across(pose: &Pose) -> DVec3 {
     DVec3::Y.cross((pose.turns[0] * DVec3::Z).with_y(0.0)).normalize()
 }
 
-/// The clip that a file of this performance gives.
+/// The clip that a file of this performance gives; its zero pose is no body.
 fn written(clip: &str, body: &Performance) -> HumanClip {
-    let rig = rig::build(body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
+    written_at_rest(clip, body, Rest::Along(0))
+}
+
+fn written_at_rest(clip: &str, body: &Performance, rest: Rest) -> HumanClip {
+    let rig = rig::build(body, &tools()[0], &[], rest, || DQuat::IDENTITY);
     let text = file::write(body, &rig, &File::plain(100.0, 1.0));
     import_bytes(Path::new(&format!("{clip}.bvh")), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
 }
@@ -89,6 +97,19 @@ fn a_clip_alone_has_a_level_head() {
         pitch_deg(&compile(vec![clip], &Options::default(), &|_| ()).unwrap(), "walk_110")
     };
     assert!((level(0.0) - level(25.0)).abs() < 0.5);
+}
+
+#[test]
+fn a_rest_pose_shows_the_bent_head_of_a_lone_clip() {
+    let pitch_of = |down_deg: f64, rest: Rest| {
+        let body = with_bent_head("walk_110", down_deg.to_radians(), DQuat::IDENTITY);
+        let clip = written_at_rest("walk_110", &body, rest);
+        pitch_deg(&compile(vec![clip], &Options::default(), &|_| ()).unwrap(), "walk_110")
+    };
+    for rest in [Rest::TPose, Rest::APose, Rest::ArmsDown] {
+        let bend_deg = pitch_of(25.0, rest) - pitch_of(0.0, rest);
+        assert!((bend_deg - 25.0).abs() < TOLERANCE_DEG + 3.0, "{rest:?}: {bend_deg}°");
+    }
 }
 
 #[test]

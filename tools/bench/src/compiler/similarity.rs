@@ -101,7 +101,9 @@ struct RecordedCycle {
 
 /// The classes of gait of all folders below `mocap`, each a source, and of the bundled clips' database.
 pub(crate) fn similarity(mocap: &Path, bundled: &MotionDb) -> Result<Vec<GaitSimilarity>, BenchError> {
-    let real = recorded_cycles(&compile(real_clips(mocap)?, &Options::default(), &|_| ())?);
+    // A clip of one source does not take the place of another's.
+    let options = Options { keep_doubtful: true, ..Options::default() };
+    let real = recorded_cycles(&compile(real_clips(mocap)?, &options, &|_| ())?);
     let ours = recorded_cycles(bundled);
     Ok(GAIT_CLASSES.iter().map(|gait_class| similarity_in_class(gait_class, &real, &ours)).collect())
 }

@@ -34,6 +34,12 @@ const STANCE_SHARE_MIN: f64 = 0.3;
 /// Greatest turn of a joint where radians are read as degrees, degrees: a whole turn, 2π, is 6.3° then. The joints of a
 /// stiff figure that slides do not turn at all.
 const RADIANS_AS_DEGREES_DEG: RangeInclusive<f64> = 0.2..=std::f64::consts::TAU;
+/// Least turn of the legs over that of the other joints in a gait. Brisk walks: 0.9; in bodies that stand legs turn least.
+const LEGS_OVER_REST: f64 = 0.5;
+/// Least number of steps that the legs would take if the angles were radians.
+const RADIANS_STEPS_MIN: usize = 3;
+/// Duration of a step, s for a person's leg: from a sprint to a stroll. Bodies that stand sway more slowly.
+const STEP_S: RangeInclusive<f64> = 0.2..=1.2;
 /// Least turn rate of a body that turns without a step, rad/s.
 const TURN_MIN_RAD_S: f64 = 0.25;
 /// Least lift of a foot that steps, m for a person's leg.
@@ -57,7 +63,8 @@ pub(crate) fn warning(clip: &SourceClip, roles: &Roles, parameters: &SourceParam
     let steps = foot_passings(clip, roles, LEAD_MIN_M * scale);
     let check = GroundCheck { clip, roles, parameters, scale, steps };
     let travels = || if parameters.is_in_place { None } else { check.slope().or_else(|| check.skating()) };
-    check.leap().or_else(travels).or_else(|| check.turn_without_step()).or_else(|| check.jump())
+    let on_the_spot = || check.radians_in_place().or_else(|| check.turn_without_step()).or_else(|| check.jump());
+    check.leap().or_else(travels).or_else(on_the_spot)
 }
 
 /// A clip and what all checks need of it.
@@ -152,13 +159,31 @@ impl GroundCheck<'_> {
         is_likely.then_some(Warning::RadiansLikely { turned_rad: turned_rad as f32 })
     }
 
+    /// Legs that hardly turn, but as much as the rest of the body, and would step if their angles were radians.
+    fn radians_in_place(&self) -> Option<Warning> {
+        let found = self.radians()?;
+        let [legs_rad, rest_rad] =
+            [true, false].map(|of_legs| self.greatest_turn_of(&|joint| is_of_leg(joint) == of_legs));
+        let lead = LEAD_MIN_M * self.scale * 1.0_f64.to_radians();
+        let steps = foot_passings(self.clip, self.roles, lead);
+        let step_s = median(steps.windows(2).map(|pair| (pair[1] - pair[0]) as f64 / self.clip.frame_rate_hz))?;
+        let is_human = STEP_S.contains(&(step_s / self.scale.sqrt()));
+        (legs_rad > LEGS_OVER_REST * rest_rad && steps.len() >= RADIANS_STEPS_MIN && is_human).then_some(found)
+    }
+
     /// Greatest turn of a joint since the first frame, rad.
     fn greatest_turn_rad(&self) -> f64 {
-        let joints = self.roles.joints.iter().flatten();
+        self.greatest_turn_of(&|_| true)
+    }
+
+    /// Greatest turn since the first frame of the joints that count, rad.
+    fn greatest_turn_of(&self, counts: &dyn Fn(Joint) -> bool) -> f64 {
+        let joints = Joint::ALL.into_iter().filter(|joint| counts(*joint));
+        let sources = joints.filter_map(|joint| self.roles.joints[joint.index()]);
         let turn_rad = |frame: usize, joint: usize| {
             self.clip.orientation(frame, joint).angle_between(self.clip.orientation(0, joint))
         };
-        let poses = joints.flat_map(|&joint| (1..self.clip.frame_count()).map(move |frame| (frame, joint)));
+        let poses = sources.flat_map(|joint| (1..self.clip.frame_count()).map(move |frame| (frame, joint)));
         poses.map(|(frame, joint)| turn_rad(frame, joint)).fold(0.0, f64::max)
     }
 
@@ -188,4 +213,8 @@ impl GroundCheck<'_> {
         (self.steps.is_empty() && highest_m > JUMP_LIFT_MIN_M * self.scale)
             .then_some(Warning::Jump { lift_cm: (100.0 * highest_m) as f32 })
     }
+}
+
+fn is_of_leg(joint: Joint) -> bool {
+    [Joint::THIGHS, Joint::SHANKS, Joint::FEET].concat().contains(&joint)
 }

@@ -52,7 +52,7 @@ pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
 /// does not depend on the other clips of the set.
 pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide: &FootSlide) -> Option<Unfit> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
-    let speed_cm_s = 100.0 * speed_mps(&cycle.rates);
+    let speed_cm_s = 100.0 * cycle.rates.speed_over_ground_mps();
     if planted_share < NO_STANCE_SHARE {
         return Some(Unfit::FeetHardlyPlanted { planted_share: planted_share as f32 });
     }
@@ -65,7 +65,7 @@ pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, growth: f64, slide
 /// Warnings for a cycle whose feet slide or are hardly planted.
 pub(crate) fn foot_warnings(rates: &Rates, slide: &FootSlide) -> Vec<Diagnostic> {
     let FootSlide { slide_cm_s, planted_share } = *slide;
-    let (_, [least_share, _]) = example_quality::usual_planted_share(speed_mps(rates) as f32);
+    let (_, [least_share, _]) = example_quality::usual_planted_share(rates.speed_over_ground_mps() as f32);
     let slides = Warning::FeetSlide { slide_cm_s: slide_cm_s as f32, from_s: None };
     let hardly_planted = Warning::FeetHardlyPlanted { planted_share: planted_share as f32, from_s: None };
     let found =
@@ -75,12 +75,7 @@ pub(crate) fn foot_warnings(rates: &Rates, slide: &FootSlide) -> Vec<Diagnostic>
 
 /// Slide, divided by the least suspect slide at this speed.
 pub(crate) fn relative_slide(rates: &Rates, slide: &FootSlide) -> f64 {
-    slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps(rates) as f32))
-}
-
-/// Speed of the body over the ground, m/s.
-fn speed_mps(rates: &Rates) -> f64 {
-    libm::hypot(rates.speed_mps, rates.strafe_mps)
+    slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(rates.speed_over_ground_mps() as f32))
 }
 
 #[cfg(test)]

@@ -76,6 +76,11 @@ pub enum RejectionReason {
     /// The animation moves no joint.
     #[error("no joint moves: the animation is of shapes, materials or props; export the skeleton's motion")]
     Motionless,
+    /// The animation moves no joint, and the file has channels that are not read.
+    #[error(
+        "no joint moves, but the file has channels of KHR_animation_pointer, which are not read; export channels of nodes"
+    )]
+    PointersOnly,
     /// Joints change their positions, but none rotates.
     #[error("no joint rotates: the motion is in the joints' positions alone; export the joints' rotations")]
     NoRotations,

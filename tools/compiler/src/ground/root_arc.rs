@@ -35,6 +35,11 @@ pub struct Rates {
 }
 
 impl Rates {
+    /// Speed over the ground, m/s.
+    pub fn speed_over_ground_mps(&self) -> f64 {
+        libm::hypot(self.speed_mps, self.strafe_mps)
+    }
+
     /// The rates as a database stores them, in f32.
     pub fn to_parameters(self) -> Parameters {
         Parameters {

@@ -21,6 +21,9 @@ pub(crate) trait FramePoser {
     /// Poses one frame. Joints that `is_needed` does not mark may keep any pose; a parent of a marked joint is marked.
     fn pose(&mut self, frame: usize, is_needed: &[bool], poses: &mut JointPoses);
 
+    /// Poses all joints as the file's skeleton is at rest; a poser without a rest pose leaves them.
+    fn pose_at_rest(&mut self, _poses: &mut JointPoses) {}
+
     /// Frees what only frames before this one need.
     fn free_before(&mut self, _frame: usize) {}
 }
@@ -60,6 +63,18 @@ impl<'a> SourceMotion<'a> {
         Ok(clip)
     }
 
+    /// All joints at rest; all at the origin where the file has no rest pose.
+    pub(crate) fn rest(&mut self) -> JointPoses {
+        let mut poses = self.origin();
+        self.poser.pose_at_rest(&mut poses);
+        poses
+    }
+
+    fn origin(&self) -> JointPoses {
+        let count = self.head.joints.len();
+        JointPoses { positions: vec![DVec3::ZERO; count], orientations: vec![DQuat::IDENTITY; count] }
+    }
+
     /// Some joints in all frames of the clip. What a frame was read from is freed once it is posed.
     pub(crate) fn into_clip(mut self, kept: &KeptJoints) -> Result<SourceClip, RejectionReason> {
         let mut clip = self.empty_clip(kept, self.frames.len())?;
@@ -91,9 +106,8 @@ impl<'a> SourceMotion<'a> {
         frames: impl Iterator<Item = usize>,
         begin: impl Fn(&mut dyn FramePoser, usize),
     ) {
-        let count = self.head.joints.len();
         let is_needed = self.head.with_ancestors(kept.iter());
-        let mut poses = JointPoses { positions: vec![DVec3::ZERO; count], orientations: vec![DQuat::IDENTITY; count] };
+        let mut poses = self.origin();
         for frame in frames {
             begin(self.poser.as_mut(), frame);
             self.poser.pose(frame, &is_needed, &mut poses);

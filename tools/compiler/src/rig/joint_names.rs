@@ -20,7 +20,7 @@ pub(crate) enum BodyPart {
     Finger,
     Neck,
     Head,
-    /// A joint without a role: twist, share, roll and IK bones, parts of the face, ears, tails.
+    /// A joint without a role: twist, share, roll and IK bones, parts of the face, ears, tails, clothes, held things.
     Helper,
 }
 
@@ -39,7 +39,7 @@ const RIGHT_WORDS: [&str; 5] = ["r", "right", "rt", "rgt", "rght"];
 
 /// Parts by words. The first row with a word that occurs in a name's joined words counts, so compounds come first.
 /// Japanese words are those of MikuMikuDance's models.
-const PARTS: [(&[&str], &[BodyPart]); 30] = [
+const PARTS: [(&[&str], &[BodyPart]); 31] = [
     (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[BodyPart::Helper]),
     (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[BodyPart::Thigh]),
     (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[BodyPart::Shank]),
@@ -70,6 +70,7 @@ const PARTS: [(&[&str], &[BodyPart]); 30] = [
     (&["首"], &[BodyPart::Neck]),
     (&["頭"], &[BodyPart::Head]),
     (&["ear", "tail", "wing"], &[BodyPart::Helper]),
+    (&["cape", "cloak", "coat", "skirt", "cloth", "dress", "prop", "weapon", "sword"], &[BodyPart::Helper]),
 ];
 
 /// The hints of a name; a namespace before a colon does not count.
@@ -175,5 +176,7 @@ mod tests {
         check("左ひざ", None, BodyPart::Shank);
         check("足ＩＫ.L", Some(Side::Left), BodyPart::Helper);
         check("首", None, BodyPart::Neck);
+        check("LongCape_L_02", Some(Side::Left), BodyPart::Helper);
+        check("hand_prop_r", Some(Side::Right), BodyPart::Hand);
     }
 }

@@ -33,6 +33,9 @@ const SKIPPED_PART_WEIGHT: f64 = 0.5;
 const FINGERS_MIN: usize = 3;
 /// Weight of an arm that does not end at such a hand, but beyond it.
 const BEYOND_HAND_WEIGHT: f64 = 0.5;
+/// Weight of a pair whose limbs have other numbers of joints above hip, knee or ankle: rigs are built alike on both
+/// sides, and a fold of a cape beside an arm is not its mirror image.
+const UNLIKE_CHAINS_WEIGHT: f64 = 0.6;
 /// What each step down the chain adds to the score: of joints at one position the last one carries the bend.
 const DEPTH_BONUS: f64 = 1e-7;
 
@@ -142,12 +145,18 @@ fn pairs_of_fork(rig: &SourceRig, fork: usize, parts: [BodyPart; 3]) -> Vec<Limb
         .flat_map(|first| (first + 1..limbs.len()).map(move |second| (first, second)))
         .filter(|&(first, second)| limbs[first].0 != limbs[second].0 && limbs[first].1.is_like(&limbs[second].1))
         .collect();
-    let score = |&(first, second): &(usize, usize)| limbs[first].1.score + limbs[second].1.score;
+    let depths: Vec<[usize; 3]> =
+        limbs.iter().map(|(_, limb)| limb.joints.map(|joint| rig.ancestors(joint).len())).collect();
+    let weight =
+        |(first, second): (usize, usize)| if depths[first] == depths[second] { 1.0 } else { UNLIKE_CHAINS_WEIGHT };
+    let score = |&slots: &(usize, usize)| weight(slots) * (limbs[slots.0].1.score + limbs[slots.1].1.score);
     slots.sort_by(|a, b| score(b).total_cmp(&score(a)));
     slots.truncate(MAX_PAIRS_OF_FORK);
-    let pair = |(first, second): (usize, usize)| [first, second].map(|slot| limbs[slot].1.clone());
-    let pairs = slots.into_iter().map(|slots| LimbPair { fork, limbs: pair(slots) });
-    pairs.filter(|pair| !pair.is_on_one_side(rig)).collect()
+    let pair = |slots: (usize, usize)| {
+        let limb = |slot: usize| Limb { score: weight(slots) * limbs[slot].1.score, ..limbs[slot].1.clone() };
+        LimbPair { fork, limbs: [limb(slots.0), limb(slots.1)] }
+    };
+    slots.into_iter().map(pair).filter(|pair| !pair.is_on_one_side(rig)).collect()
 }
 
 /// All limbs on the paths down from a child of a fork.

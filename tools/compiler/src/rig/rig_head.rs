@@ -26,6 +26,8 @@ pub struct RigHead {
     pub(crate) rig: Rig,
     /// Rotation of an upright head in the frame of the source's head joint.
     pub(crate) offset: DQuat,
+    /// The same by the rest pose, where that is a body that stands.
+    pub(crate) rest_offset: Option<DQuat>,
 }
 
 impl RigHead {
@@ -38,6 +40,6 @@ impl RigHead {
             Some(libm::round(from.distance(to) / (BONE_STEP_LEGS * leg_m)) as i64)
         };
         let lengths = Joint::ALL.iter().map(|joint| length(joint).unwrap_or_default()).collect();
-        Self { rig: Rig { names: roles.joints.iter().map(name).collect(), lengths }, offset }
+        Self { rig: Rig { names: roles.joints.iter().map(name).collect(), lengths }, offset, rest_offset: None }
     }
 }

@@ -3,11 +3,13 @@
 //! Enters: for each clip its steady cycles. Leaves: named cycles (not yet sorted), and a note for each cycle left
 //! out.
 //!
-//! Read in the order of the pipeline: `best_windows`, `named_cycles`, `limited_set`, `mirror`; `base_walk` chooses
-//! m_sp.
+//! Read in the order of the pipeline: `best_windows`, `clean_cycles` (by `rate_hull`), `named_cycles`, `limited_set`,
+//! `mirror`; `base_walk` chooses m_sp.
 
 pub(crate) mod base_walk;
 pub(crate) mod best_windows;
+pub(crate) mod clean_cycles;
 pub(crate) mod limited_set;
 pub(crate) mod mirror;
 pub(crate) mod named_cycles;
+mod rate_hull;

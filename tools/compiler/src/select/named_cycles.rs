@@ -100,7 +100,7 @@ pub(crate) fn window_name(clip: &HumanClip, frame_count: usize, index: usize, wi
 }
 
 /// Whether a manifest chose a window of a clip as m_sp.
-fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> bool {
+pub(crate) fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> bool {
     let is_named = match clip.choices.semi_procedural_tenth {
         None => index == 0,
         Some(tenth) => format!("{:.1}", window_s[0]) == format!("{:.1}", f64::from(tenth) / 10.0),

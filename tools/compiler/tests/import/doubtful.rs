@@ -82,6 +82,46 @@ fn radians_are_reported() {
     assert!(matches!(found, Warning::RadiansLikely { turned_rad } if turned_rad.to_degrees() < 1.5), "{found:?}");
 }
 
+/// A bundled clip in place; its angles are in radians where `is_in_radians`.
+fn in_place(clip: &str, is_in_radians: bool) -> String {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips"));
+    let text = std::fs::read_to_string(folder.join(clip).with_extension("bvh")).unwrap();
+    let start = text.find("Frame Time").and_then(|at| Some(at + text[at..].find('\n')? + 1)).unwrap();
+    let channels =
+        text[..start].split_whitespace().filter(|word| word.ends_with("position") || word.ends_with("rotation"));
+    let channels: Vec<&str> = channels.collect();
+    let first: Vec<f64> =
+        text[start..].lines().next().unwrap().split_whitespace().map(|word| word.parse().unwrap()).collect();
+    let mut edited = text[..start].to_owned();
+    for line in text[start..].lines() {
+        let values = line.split_whitespace().zip(&channels).zip(&first).map(|((word, channel), first)| {
+            let value: f64 = word.parse().unwrap();
+            match *channel {
+                "Xposition" | "Zposition" => *first,
+                "Yposition" => value,
+                _ if is_in_radians => value.to_radians(),
+                _ => value,
+            }
+        });
+        edited += &values.map(|value| value.to_string()).collect::<Vec<String>>().join(" ");
+        edited.push('\n');
+    }
+    edited
+}
+
+#[test]
+fn radians_of_clips_in_place_are_reported() {
+    let is_reported = |text: &str| {
+        let is_radians = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::RadiansLikely { .. }));
+        diagnostics(text).iter().any(is_radians)
+    };
+    for clip in ["walk_050", "walk_080", "walk_110", "walk_180", "run_350", "backward_040", "turn_060_left"] {
+        assert!(is_reported(&in_place(clip, true)), "{clip}");
+        assert!(!is_reported(&in_place(clip, false)), "{clip}");
+    }
+    assert!(!is_reported(&in_place("idle", false)));
+}
+
 #[test]
 fn a_frozen_clip_is_reported() {
     assert_eq!(warning(&rows(|_, row| row.fill(0.0))), Warning::PoseFrozen);
@@ -114,6 +154,14 @@ fn text_after_the_last_row_is_not_motion() {
     }
     let early = bvh_text().replace("Frames: ", "Frames: 9") + "END OF FILE\n";
     assert!(import_bytes(Path::new("clip.bvh"), early.as_bytes()).is_err());
+}
+
+#[test]
+fn comments_before_the_rows_do_not_matter() {
+    let plain = imported(&bvh_text()).unwrap();
+    let text = bvh_text().replace("HIERARCHY", "# exported by 1.2\n\n// rig 3\nHIERARCHY");
+    let text = text.replace("MOTION", "  # motion\nMOTION\n// 40 rows").replace("Frame Time", "# time\nFrame Time");
+    assert_eq!(imported(&text).unwrap().frames, plain.frames);
 }
 
 #[test]

@@ -125,7 +125,8 @@ impl Manifest {
             table.get_ref().check(&source)?;
         }
         let clips = clip_selection::selected_clips(&source, &file.clips)?;
-        let options = Options { max_examples: file.max_examples, velocity_hull: file.velocity_hull };
+        let options =
+            Options { max_examples: file.max_examples, velocity_hull: file.velocity_hull, ..Options::default() };
         let (semi_procedural, target_skeleton) = (file.semi_procedural, file.target_skeleton);
         Ok(Self { clips, options, source, semi_procedural, target_skeleton })
     }

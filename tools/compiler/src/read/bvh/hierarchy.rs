@@ -37,7 +37,7 @@ pub(crate) fn checked_hierarchy<R: BufRead>(
 ) -> Result<(Vec<CheckedJoint>, usize), RejectionReason> {
     let mut reader = HierarchyReader::default();
     let mut last_line = 1;
-    while let Some(line) = lines.next()? {
+    while let Some(line) = lines.next_statement()? {
         line.check_length(LINE_MAX_BYTES)?;
         let (line, text) = (line.number, line.text());
         if text.eq_ignore_ascii_case("MOTION") {

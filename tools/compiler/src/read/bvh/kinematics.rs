@@ -82,6 +82,15 @@ impl FramePoser for RowPoser {
         }
     }
 
+    /// The zero pose: each joint at its OFFSET, without rotations.
+    fn pose_at_rest(&mut self, poses: &mut JointPoses) {
+        for (joint, motion) in self.motions.iter().enumerate() {
+            let parent_position = self.parents[joint].map_or(DVec3::ZERO, |parent| poses.positions[parent]);
+            poses.positions[joint] = parent_position + motion.offset;
+            poses.orientations[joint] = DQuat::IDENTITY;
+        }
+    }
+
     fn free_before(&mut self, frame: usize) {
         self.motion.free_before(frame);
     }

@@ -59,13 +59,24 @@ impl<R: BufRead> TextLines<R> {
 
     /// The next line that is not blank; none after the last.
     pub(crate) fn next(&mut self) -> Result<Option<TextLine<'_>>, RejectionReason> {
+        self.next_unless(|_| false)
+    }
+
+    /// The next line that is neither blank nor a comment. BVH has no comments, but some programs write lines that begin
+    /// with `#` or `//` before the rows of motion.
+    pub(crate) fn next_statement(&mut self) -> Result<Option<TextLine<'_>>, RejectionReason> {
+        self.next_unless(is_comment)
+    }
+
+    /// The next line that is neither blank nor left out.
+    fn next_unless(&mut self, is_left_out: fn(&[u8]) -> bool) -> Result<Option<TextLine<'_>>, RejectionReason> {
         loop {
             if !self.read_line().map_err(|error| RejectionReason::unreadable(&error))? {
                 return Ok(None);
             }
             self.number += 1;
             // A line that is too long ends the reading, also if its beginning is blank.
-            if self.bytes.len() > LINE_MAX_BYTES || !is_blank(&self.bytes) {
+            if self.bytes.len() > LINE_MAX_BYTES || !(is_blank(&self.bytes) || is_left_out(&self.bytes)) {
                 break;
             }
         }
@@ -112,6 +123,11 @@ fn is_blank(line: &[u8]) -> bool {
     !line.iter().any(u8::is_ascii_graphic) && String::from_utf8_lossy(line).trim().is_empty()
 }
 
+fn is_comment(line: &[u8]) -> bool {
+    let text = line.trim_ascii_start();
+    text.starts_with(b"#") || text.starts_with(b"//")
+}
+
 /// The number that a word spells.
 pub(crate) fn number(line: usize, word: &str) -> Result<f64, RejectionReason> {
     match decimal::number(word) {
@@ -150,6 +166,13 @@ mod tests {
             let expected = [(1, "a"), (3, "b"), (4, "c"), (6, "d"), (7, "e"), (9, "f")];
             assert_eq!(found, expected.map(|(number, line)| (number, line.to_owned())), "{capacity}");
         }
+    }
+
+    #[test]
+    fn comments_are_no_statements() {
+        let mut lines = TextLines::new("# a\n // b\nc # d\n\n#e\nf\n# g".as_bytes());
+        let mut next = || lines.next_statement().unwrap().map(|line| (line.number, line.text().to_owned()));
+        assert_eq!([next(), next(), next()], [Some((3, "c # d".into())), Some((6, "f".into())), None]);
     }
 
     #[test]

@@ -65,8 +65,8 @@ pub(crate) fn checked_motion<R: BufRead>(
     joints: &[CheckedJoint],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<MotionSection, RejectionReason> {
-    let (_, stated_frames) = header(lines.next()?, motion_line, &["FRAMES"])?;
-    let (line, frame_time_s) = header(lines.next()?, motion_line, &["FRAME", "TIME"])?;
+    let (_, stated_frames) = header(lines.next_statement()?, motion_line, &["Frames"])?;
+    let (line, frame_time_s) = header(lines.next_statement()?, motion_line, &["Frame", "Time"])?;
     if !FRAME_TIME_S.contains(&frame_time_s) {
         let [least, greatest] = [FRAME_TIME_S.start(), FRAME_TIME_S.end()];
         let problem = format!("Frame Time is {frame_time_s} s, not between {least} and {greatest}");
@@ -107,7 +107,8 @@ fn header(line: Option<TextLine>, motion_line: usize, words: &[&str]) -> Result<
     let (line, text) = (line.number, line.text());
     let missing = || malformed_line(line, format!("`{}:` is missing", words.join(" ")), remedy);
     let Some((head, value)) = text.split_once(':') else { return missing() };
-    if !head.split_whitespace().map(str::to_ascii_uppercase).eq(words.iter().copied()) {
+    let lower = |word: &str| word.to_ascii_lowercase();
+    if !head.split_whitespace().map(lower).eq(words.iter().copied().map(lower)) {
         return missing();
     }
     match value.trim().parse::<f64>() {

@@ -55,7 +55,7 @@ fn parse_unguarded(json: &[u8]) -> Result<ParsedDocument, RejectionReason> {
     check_version(json)?;
     let (root, has_nodeless_channels) = match json::deserialize::from_slice::<Root>(json) {
         Ok(root) => (root, false),
-        Err(error) => (without_nodeless_channels(json).map_or_else(|| unparsed(&error), Ok)?, true),
+        Err(error) => readable(json).map_or_else(|| unparsed(&error), Ok)?,
     };
     check_structure(&root)?;
     Ok(ParsedDocument { root, has_nodeless_channels })
@@ -88,18 +88,33 @@ fn check_version(json: &[u8]) -> Result<(), RejectionReason> {
     malformed("asset", format!("it needs a reader of glTF {needed}"), "export it as glTF 2.0")
 }
 
-/// The document without channels that name no node (KHR_animation_pointer); none where it has no such channel, or
-/// another mistake.
-fn without_nodeless_channels(json: &[u8]) -> Option<Root> {
+/// The document without what is valid, but which the parser refuses: channels that name no node (KHR_animation_pointer),
+/// and scenes without nodes. States whether it has such channels; none where it has neither, or another mistake.
+fn readable(json: &[u8]) -> Option<(Root, bool)> {
     let mut document: json::Value = json::deserialize::from_slice(json).ok()?;
-    let mut has_any = false;
-    for animation in document.get_mut("animations")?.as_array_mut()? {
-        let channels = animation.get_mut("channels")?.as_array_mut()?;
-        let count = channels.len();
-        channels.retain(|channel| channel.get("target").is_some_and(|target| target.get("node").is_some()));
-        has_any |= channels.len() < count;
+    let mut has_nodeless_channels = false;
+    for animation in list(&mut document, "animations") {
+        if let Some(channels) = animation.get_mut("channels").and_then(json::Value::as_array_mut) {
+            let count = channels.len();
+            channels.retain(|channel| channel.get("target").is_some_and(|target| target.get("node").is_some()));
+            has_nodeless_channels |= channels.len() < count;
+        }
     }
-    has_any.then(|| json::deserialize::from_value(document).ok())?
+    let scenes = list(&mut document, "scenes").iter_mut().filter_map(json::Value::as_object_mut);
+    let mut has_any = has_nodeless_channels;
+    for scene in scenes.filter(|scene| !scene.contains_key("nodes")) {
+        scene.insert("nodes".into(), json::Value::Array(Vec::new()));
+        has_any = true;
+    }
+    if !has_any {
+        return None;
+    }
+    Some((json::deserialize::from_value(document).ok()?, has_nodeless_channels))
+}
+
+/// A list of a document; empty where it has none.
+fn list<'a>(document: &'a mut json::Value, name: &str) -> &'a mut [json::Value] {
+    document.get_mut(name).and_then(json::Value::as_array_mut).map_or(&mut [], Vec::as_mut_slice)
 }
 
 /// Checks indices and enumerations in [`CHECKED_PARTS`].

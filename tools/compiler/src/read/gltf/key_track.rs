@@ -37,7 +37,7 @@ pub(crate) fn read(document: &Document, channel: &NodeChannel) -> Result<KeyTrac
     let is_finite = times.values.iter().chain(&values).all(|value| value.is_finite());
     let is_whole = values.len() == per_key * width * times.values.len();
     if times.width != 1 || !is_right_width || !is_in_order || !is_finite || !is_whole {
-        let problem = "keys are not finite, in order and one value each";
+        let problem = "keys are not finite, in order and one value each (of a CUBICSPLINE three)";
         return malformed(format!("accessors {input} and {output}"), problem, "export the animation again");
     }
     Ok(KeyTrack { node, property, interpolation, times_s: times.values, values })

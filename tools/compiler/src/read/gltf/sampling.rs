@@ -47,7 +47,9 @@ pub(crate) struct KeyPoser<'a> {
     tracks: Vec<KeyTrack>,
     /// Time of the first frame, s.
     start_s: f64,
-    /// Transforms of all nodes of the document in their parents' frames.
+    /// Transforms of all nodes of the document at rest, in their parents' frames.
+    rest: Vec<NodeTransform>,
+    /// The same in the frame that was posed last.
     locals: Vec<NodeTransform>,
     /// Global matrices of the body's nodes.
     globals: Vec<DMat4>,
@@ -64,7 +66,22 @@ impl<'a> KeyPoser<'a> {
     ) -> Self {
         let parents = body.parents(tree);
         let globals = vec![DMat4::IDENTITY; parents.len()];
-        Self { tree, body, parents, tracks, start_s, locals: rest, globals }
+        Self { tree, body, parents, tracks, start_s, locals: rest.clone(), rest, globals }
+    }
+
+    /// Node of a joint of the body.
+    fn node(&self, joint: usize) -> usize {
+        self.tree.order[self.body.slots[joint]]
+    }
+
+    /// Poses a node of the body, whose parent is posed.
+    fn pose_joint(&mut self, joint: usize, transform: &NodeTransform, poses: &mut JointPoses) {
+        let NodeTransform { translation, rotation, scale } = *transform;
+        let local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
+        let global = self.parents[joint].map_or(local, |parent| self.globals[parent] * local);
+        self.globals[joint] = global;
+        poses.positions[joint] = global.w_axis.truncate();
+        poses.orientations[joint] = orientation(DMat3::from_mat4(global));
     }
 }
 
@@ -72,14 +89,16 @@ impl FramePoser for KeyPoser<'_> {
     fn pose(&mut self, frame: usize, is_needed: &[bool], poses: &mut JointPoses) {
         let time_s = self.start_s + frame as f64 / FRAME_RATE_HZ;
         self.tracks.iter().for_each(|track| track.apply(time_s, &mut self.locals[track.node]));
-        for (joint, &parent) in self.parents.iter().enumerate().filter(|(joint, _)| is_needed[*joint]) {
-            let node = self.tree.order[self.body.slots[joint]];
-            let NodeTransform { translation, rotation, scale } = self.locals[node];
-            let local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
-            let global = parent.map_or(local, |parent| self.globals[parent] * local);
-            self.globals[joint] = global;
-            poses.positions[joint] = global.w_axis.truncate();
-            poses.orientations[joint] = orientation(DMat3::from_mat4(global));
+        for joint in (0..self.parents.len()).filter(|joint| is_needed[*joint]) {
+            let transform = self.locals[self.node(joint)];
+            self.pose_joint(joint, &transform, poses);
+        }
+    }
+
+    fn pose_at_rest(&mut self, poses: &mut JointPoses) {
+        for joint in 0..self.parents.len() {
+            let transform = self.rest[self.node(joint)];
+            self.pose_joint(joint, &transform, poses);
         }
     }
 }
