@@ -24,7 +24,7 @@ const AHEAD_RAD_PER_MPS: f32 = 0.15;
 /// d_0: angle to the preferred facing for which a standing body does not turn, rad: 17°.
 const TOLERANCE_AT_REST_RAD: f32 = 0.3;
 /// v_0: speed from which on a body turns for any angle, m/s.
-const TURNS_AT_MPS: f32 = 0.8;
+const TURNS_AT_MPS: f32 = 0.6;
 
 /// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`. Unit vectors.
 pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32) -> Vec2 {

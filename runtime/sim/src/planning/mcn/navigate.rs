@@ -23,6 +23,12 @@ use crate::planning::world_view::WorldView;
 /// Greatest speed at which walls ahead are looked for, m/s: a run.
 const WALL_SPEED_MPS: f32 = 4.0;
 
+/// Greatest speed of an agent that gives way, divided by the speed that it prefers (Helbing and Molnár 1995, *Physical
+/// Review E* 51, 4282–4286).
+const HURRY: f32 = 1.3;
+/// Speed up to which an agent of common size always may give way, m/s: a brisk walk.
+const BRISK_MPS: f32 = 1.5;
+
 /// Plans one agent's next velocity and facing.
 ///
 /// 1. Look around: neighbours and wall edges.
@@ -86,7 +92,8 @@ fn solve(world: &WorldView, agent: usize, set: VelocitySet, params: &McnParams, 
     }
     let firm_count = half_planes.len();
     half_planes.extend_from_slice(&memory.of_agents); // C_ij
-    let speed_max_mps = factor * allowed.speed_max_mps;
+    let hurry_mps = (HURRY * world.preferred_mps[agent].length()).max(factor * BRISK_MPS);
+    let speed_max_mps = hurry_mps.min(factor * allowed.speed_max_mps);
     linear_program::solve(half_planes, firm_count, memory.adapted_mps, speed_max_mps, &mut memory.projected)
         .velocity_mps
 }

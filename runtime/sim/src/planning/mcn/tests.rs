@@ -129,6 +129,16 @@ fn no_plan_is_faster_than_the_database() {
 }
 
 #[test]
+fn nobody_runs_to_give_way() {
+    let mut scene = Scene::new(&[[0.0, 0.0], [-0.05, 0.01]]);
+    scene.turning_mps = kite(5.0, 1.0, 0.5);
+    let speed_mps = scene.plan().velocity_mps.length();
+    assert!((1.6..1.3 * WALK.x + 1e-4).contains(&speed_mps), "{speed_mps} m/s");
+    scene.preferred_mps[0] = Vec2::new(0.2, 0.0);
+    assert!(scene.plan().velocity_mps.length() < 1.5 + 1e-4);
+}
+
+#[test]
 fn overlapping_agents_part_no_faster_in_finer_steps() {
     let mut scene = Scene { preferred_mps: vec![Vec2::ZERO; 2], ..Scene::new(&[[0.0, 0.0], [0.2, 0.1]]) };
     let [coarse, fine, finest] = [0.05, 1.0 / 60.0, 1.0 / 120.0].map(|dt_s| {
@@ -358,7 +368,7 @@ fn without_its_parts_mcn_is_orca() {
         scene.velocities_mps[1..].iter_mut().for_each(|velocity_mps| *velocity_mps *= 1.2);
         scene.params.planner.parts = parts.clone();
         scene.params.orca.time_horizon_s = scene.params.planner.time_horizon_s;
-        scene.params.orca.speed_max_mps = 1.8;
+        scene.params.orca.speed_max_mps = 1.3 * WALK.x;
         let [mcn, orca] = [Planner::Mcn, Planner::Orca]
             .map(|planner| scene.plan_by(planner, &mut PlannerMemory::default()).velocity_mps);
         assert!(mcn.distance(orca) < 1e-5, "{mcn} {orca}");
