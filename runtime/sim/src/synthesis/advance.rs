@@ -49,10 +49,12 @@ impl Body {
         let current = motion.current(&context.db);
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
-        let (closes_feet, rate_factor) =
-            (command.step_state.closes_feet(), phase_rate_factor(motion, &current, contact, root, *actual_mps, step));
-        // A foot that closes does not wait until the root is over the other one.
-        let rate_factor = if closes_feet { rate_factor.max(1.0) } else { rate_factor };
+        let closes_feet = command.step_state.closes_feet();
+        let rate_factor = match phase_rate_factor(motion, &current, contact, root, *actual_mps, step) {
+            // A foot that closes does not wait until the root is over the other one.
+            factor if closes_feet => factor.max(1.0),
+            factor => factor,
+        };
         motion.take_steps(root, target, rate_factor, closes_feet, context, step);
         let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);

@@ -34,7 +34,8 @@ const BRISK_MPS: f32 = 1.5;
 /// 1. Look around: neighbours and wall edges.
 /// 2. Adapt v_pref to the crowd: v_op (§4.3).
 /// 3. Find the half-planes of walls and agents (§4.4).
-/// 4. Solve for the velocity in the turning set; in the holding set where the agent would stand (§4.1, 4.2, 4.4).
+/// 4. Solve for the velocity in the turning set; in the holding set where the agent would stand (§4.1, 4.2, 4.4). Nobody
+///    runs to give way.
 /// 5. Choose the facing, and with it the velocity set (§4.5); a body turns to it gradually.
 /// 6. Measure the gap that the agent passes, and the room that its body has.
 pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) -> Plan {

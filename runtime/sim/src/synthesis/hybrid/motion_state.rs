@@ -175,7 +175,7 @@ impl MotionState {
     }
 
     /// Advances the phase over one step, at a factor on its rate, while the motion moves toward a target; the pace and
-    /// the lead of the steps follow.
+    /// the lead of the steps follow. `closes_feet` states whether the body only brings its feet together.
     pub(crate) fn take_steps(
         &mut self,
         root: &Root,

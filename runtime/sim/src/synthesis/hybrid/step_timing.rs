@@ -16,7 +16,8 @@
 //! G = (1 − 1/q)·T      lead that a swing of duration T at pace 1 gains.
 //! ```
 //!
-//! A lead across v, and that of a body at rest, decays: nothing else makes it up.
+//! A lead across v, and that of a body at rest, decays: nothing else makes it up. A body that only brings its feet together
+//! does not wait while both stand.
 //!
 //! World, metres, seconds; phases as in [`crate::synthesis`].
 
