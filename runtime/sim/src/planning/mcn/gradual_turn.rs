@@ -8,7 +8,8 @@
 //! min(β·min(1, s_0 + s_1·v), a_0 + a_1·v),   β = max(0, α − d_0·max(0, 1 − v/v_0))
 //! ```
 //!
-//! where α is the angle to the preferred facing and v the body's speed. World axes, m/s, radians.
+//! where α is the angle to the preferred facing and v the body's speed. A body that cannot step aside goes only where it
+//! faces, and turns for any angle: d_0 = 0. World axes, m/s, radians.
 
 use glam::Vec2;
 
@@ -27,9 +28,10 @@ const TOLERANCE_AT_REST_RAD: f32 = 0.3;
 const TURNS_AT_MPS: f32 = 0.6;
 
 /// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`. Unit vectors.
-pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32) -> Vec2 {
+pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_aside: bool) -> Vec2 {
     let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
-    let tolerance_rad = TOLERANCE_AT_REST_RAD * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
+    let tolerance_rad =
+        if steps_aside { TOLERANCE_AT_REST_RAD } else { 0.0 } * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
     let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
     let share = (SHARE_AT_REST + SHARE_PER_MPS * speed_mps).min(1.0);
     let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps;
@@ -45,7 +47,7 @@ mod tests {
     /// The angle ahead of a body that faces +x, rad.
     fn ahead_rad(facing_rad: f32, speed_mps: f32) -> f32 {
         let (sin, cos) = libm::sincosf(facing_rad);
-        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps).to_angle()
+        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps, true).to_angle()
     }
 
     #[test]
@@ -69,6 +71,7 @@ mod tests {
     fn standing_body_does_not_turn_for_a_small_angle() {
         assert_eq!(ahead_rad(0.25, 0.0), 0.0);
         assert!(ahead_rad(0.25, 0.4) > 0.03 && ahead_rad(-0.25, 0.4) < -0.03);
+        assert!(gradual_facing(Vec2::X, Vec2::from_angle(0.25), 0.0, false).y > 0.05);
     }
 
     #[test]

@@ -29,6 +29,9 @@ const HURRY: f32 = 1.3;
 /// Speed up to which an agent of common size always may give way, m/s: a brisk walk.
 const BRISK_MPS: f32 = 1.5;
 
+/// Speed of a side-step by which a body is known to have side-steps, m/s: a slow one.
+const ASIDE_MPS: f32 = 0.3;
+
 /// Plans one agent's next velocity and facing.
 ///
 /// 1. Look around: neighbours and wall edges.
@@ -58,7 +61,8 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
         }
     };
     let facing = if world.bodies {
-        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length())
+        let steps_aside = steps_aside(world, agent, memory.forward);
+        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length(), steps_aside)
     } else {
         orientation.facing
     };
@@ -73,6 +77,14 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
         gap_m: gap_m(world, agent, velocity_mps, &memory.surroundings),
         room: memory.surroundings.elbow_room(world, agent),
     }
+}
+
+/// Whether an agent's body has side-steps to both sides.
+fn steps_aside(world: &WorldView, agent: usize, forward: Vec2) -> bool {
+    let (holding, factor) = (world.constraints_of(agent).set(VelocitySet::Holding), world.speed_factor(agent));
+    [ASIDE_MPS, -ASIDE_MPS].into_iter().all(|aside_mps| {
+        holding.outside_mps(forward, factor, factor * aside_mps * forward.perp()) <= orientation::HOLDING_SLACK_MPS
+    })
 }
 
 /// Eqs. 13, 14: all half-planes by rank, the least yielding first, and the best velocity, m/s.
