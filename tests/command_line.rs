@@ -84,6 +84,18 @@ fn a_file_of_another_kind_is_named() {
 }
 
 #[test]
+fn files_of_other_formats_beside_clips_are_named() {
+    let folder = folder("beside_clips");
+    fs::create_dir_all(folder.join("more")).unwrap();
+    fs::copy(support::repository().join(WALK), folder.join("walk.bvh")).unwrap();
+    fs::write(folder.join("more/run.fbx"), "anything").unwrap();
+    let database = folder.join("motion.fbdb");
+    let words = ["passed over in", "a file of other formats", "run.fbx", "Blender"];
+    fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(0).says(&words);
+    fbcrowd(&["inspect", text(&folder)]).expect_code(0).says(&words);
+}
+
+#[test]
 fn a_malformed_clip_is_refused_the_rest_compiles() {
     let folder = folder("malformed_clip");
     let walk = fs::read_to_string(support::repository().join(WALK)).unwrap();

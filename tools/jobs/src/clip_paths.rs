@@ -36,11 +36,29 @@ pub fn manifest(paths: &[PathBuf]) -> Result<Manifest, JobError> {
 
 /// What a folder without clips holds in their place: `, but 3 files of other formats: walk.fbx, an FBX file …`.
 fn instead(folder: &Path) -> Result<String, JobError> {
+    Ok(others(folder)?.map_or(String::new(), |others| format!(", but {others}")))
+}
+
+/// What the folders hold beside their clips that cannot be read, a line each. The manifest of a folder decides itself.
+///
+/// # Errors
+/// If a folder cannot be read.
+pub fn passed_over(paths: &[PathBuf]) -> Result<Vec<String>, JobError> {
+    let folders = paths.iter().filter(|path| path.is_dir() && !path.join(MANIFEST).is_file());
+    let line = |folder: &PathBuf| {
+        let others = others(folder)?;
+        Ok(others.map(|others| format!("passed over in {}: {others}", folder.display())))
+    };
+    folders.filter_map(|folder| line(folder).transpose()).collect()
+}
+
+/// The files of other formats below a folder: their number, and what the first is.
+fn others(folder: &Path) -> Result<Option<String>, JobError> {
     let others = foreign_files(folder)?;
-    let Some((first, format)) = others.first() else { return Ok(String::new()) };
+    let Some((first, format)) = others.first() else { return Ok(None) };
     let count = if others.len() == 1 { "a file" } else { &format!("{} files", others.len()) };
     let name = first.file_name().unwrap_or_default().display();
-    Ok(format!(", but {count} of other formats: `{name}` is {}; {}", format.name, format.remedy))
+    Ok(Some(format!("{count} of other formats: `{name}` is {}; {}", format.name, format.remedy)))
 }
 
 /// Checks that a database written to `output` replaces neither a clip, nor a file that a clip links to, nor a manifest.

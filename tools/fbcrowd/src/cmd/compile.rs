@@ -114,6 +114,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         output::print_json(&with_next_steps(CompileReport::without_examples(rejected.clone(), sources)))?;
     }
     let Compiled { db, rejected } = compiled?;
+    rejected::print_passed_over(&args.clips)?;
     let answer = rejected::answer(&rejected);
     if args.strict && answer == Answer::No {
         rejected::print(&rejected);

@@ -260,7 +260,9 @@ impl MotionInput {
             }
             MotionSource::Clips(clips) => {
                 let overrides = Overrides { outside: args.outside.into(), ..Overrides::default() };
-                let compiled = compiling::compile(&[clips], &outputs.database, &overrides, observer)?;
+                let clips = [clips];
+                let compiled = compiling::compile(&clips, &outputs.database, &overrides, observer)?;
+                rejected::print_passed_over(&clips)?;
                 rejected::print(&compiled.rejected);
                 Ok(Self { db: compiled.db, checksum: None, answer: rejected::answer(&compiled.rejected) })
             }

@@ -217,6 +217,7 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
     };
     let progress = ProgressDisplay::default();
     let ClipSet { clips, rejected } = compiling::import(paths, args.outside.into(), &|event| progress.observe(event))?;
+    rejected::print_passed_over(paths)?;
     rejected::print(&rejected);
     let has_character = figure.is_some();
     let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
