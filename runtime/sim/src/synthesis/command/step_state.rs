@@ -104,9 +104,10 @@ impl StepState {
         !self.stands && reachable.idle_share > IDLE_SHARE_MAX && slows_down().idle_share > STOP_IDLE_SHARE
     }
 
-    /// Whether the body steps only to bring its feet together.
+    /// Whether the body makes the step that is to bring its feet together. Where steps are long, its root must then come
+    /// over the foot that has landed.
     pub(crate) fn closes_feet(&self) -> bool {
-        self.gathering_s > 0.0
+        self.gathering_s > 0.0 && self.gathering_s < CLOSING_STEP_S
     }
 
     /// Whether the body walks and its command continues the walk.
@@ -132,7 +133,7 @@ impl StepState {
         } else {
             reachable
         };
-        let playback_rate_min = if self.closes_feet() { 1.0 } else { PLAYBACK_RATE_MIN };
+        let playback_rate_min = if self.gathering_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
         // Standing lies at the origin, so a scaled point has the scaled share of steps.
         let stepping_share = (1.0 - steps.idle_share).max(1.0 - HALT_IDLE_SHARE);
         let scale = (playback_rate_min * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
