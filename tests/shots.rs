@@ -377,6 +377,10 @@ fn a_strip_shows_one_agent_in_one_picture() {
     refused(&["--agent", "6"], "agents 0 to 5");
     refused(&["--agent", "0", "--burn-in"], "--burn-in belongs to frames");
     refused(&["--agent", "0", "--fps", "600"], "choose fewer by --frames");
-    fbcrowd(&["render", text(recording()), "-o", text(&folder), "--agent", "0"]).expect_code(2).says(&["--view strip"]);
+    refused(&["--agent", "0", "--passes", "z"], "need --view camera");
+    for view in ["top", "camera"] {
+        let without_effect = ["render", text(recording()), "-o", text(&folder), "--view", view, "--agent", "0"];
+        fbcrowd(&without_effect).expect_code(2).says(&["--view strip"]);
+    }
     assert_eq!(files(&folder).len(), 2);
 }

@@ -137,7 +137,7 @@ pub enum Warning {
         /// Number of further jumps in the clip.
         more: u32,
     },
-    /// The body moves without a step, and its joints hardly turn: the file's angles seem to be radians.
+    /// No foot steps, and joints hardly turn: the file's angles seem to be radians.
     RadiansLikely {
         /// Greatest turn of a joint since the first frame, rad.
         turned_rad: f32,
@@ -245,8 +245,8 @@ impl fmt::Display for Warning {
             ),
             Self::RadiansLikely { turned_rad } => write!(
                 out,
-                "the body moves without a step, and no joint turns by more than {:.1}°: the file seems to hold radians; \
-                 export it with angles in degrees",
+                "no foot steps, and no joint turns by more than {:.1}°: the file seems to hold radians; export it with \
+                 angles in degrees",
                 turned_rad.to_degrees()
             ),
             Self::PoseFrozen => out.write_str(

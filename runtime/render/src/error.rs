@@ -79,7 +79,7 @@ pub enum RenderError {
         duration_s: f64,
     },
     /// The recording does not have an agent that is to be shown.
-    #[error("agent {agent} does not exist; the recording has agents 0 to {}; choose one of these (--view camera --labels shows the numbers)", count.saturating_sub(1))]
+    #[error("agent {agent} does not exist; the recording has {}; choose among these (--view camera --labels shows the numbers)", numbers(*.count))]
     NoSuchAgent {
         /// Index of the agent.
         agent: usize,
@@ -127,7 +127,7 @@ pub enum RenderError {
     },
     /// The agent of a camera is not present.
     #[error(
-        "camera {camera:?}: agent {agent} is not present at {time_s} s; name another agent, or choose frames in which it is present by --frames"
+        "camera {camera:?}: agent {agent} is not present at {time_s:.2} s; name another agent, or choose frames in which it is present by --frames"
     )]
     CameraAgent {
         /// Name of the camera.
@@ -138,7 +138,7 @@ pub enum RenderError {
         time_s: f64,
     },
     /// The agent of a strip is not present.
-    #[error("agent {agent} is not present at {time_s} s; choose frames in which it is present by --frames")]
+    #[error("agent {agent} is not present at {time_s:.2} s; choose frames in which it is present by --frames")]
     AbsentAgent {
         /// Id of the agent.
         agent: u32,

@@ -154,9 +154,10 @@ pub fn size_warning(fit: &CharacterFit) -> Option<String> {
         STATURE.contains(&stature).then(|| format!("`stature = {stature:.2}` {aim} ({height_m:.2} m)"))
     };
     let remedies: Vec<String> = [crowd_height, own_height].into_iter().flatten().filter_map(remedy).collect();
-    let remedy = match remedies.is_empty() {
-        true => String::new(),
-        false => format!("; give the agents that wear it a profile with {}", remedies.join(", or ")),
+    let remedy = if remedies.is_empty() {
+        String::new()
+    } else {
+        format!("; give the agents that wear it a profile with {}", remedies.join(", or "))
     };
     Some(format!(
         "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}, {:.2} m \

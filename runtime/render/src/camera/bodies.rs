@@ -56,7 +56,7 @@ impl Dresser<'_> {
         hidden: Option<u32>,
     ) -> SceneParts {
         let mut scene = SceneParts::default();
-        let append = |parts: SceneParts| scene.extend(parts);
+        let append = |parts: SceneParts| scene.extend(&parts);
         let seen = Seen { agents, posed: agents, lens, hidden };
         self.each_chunk(&seen, |at| shown[at], |parts| parts, append);
         scene.textures = self.wardrobe.map(Wardrobe::textures).unwrap_or_default();

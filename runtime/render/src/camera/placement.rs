@@ -98,10 +98,11 @@ fn present<'a>(
 ) -> Result<&'a AgentFrame, RenderError> {
     let (camera, count) = (spec.name.clone(), recording.population().agents.len());
     let found = bodies.binary_search_by_key(&AgentId(agent), |body| body.id);
-    found.map(|index| &bodies[index]).map_err(|_| match agent as usize >= count {
-        true => RenderError::UnknownCameraAgent { camera, agent, count },
-        false => RenderError::CameraAgent { camera, agent, time_s: (time_s * 100.0).round() / 100.0 },
-    })
+    match found {
+        Ok(index) => Ok(&bodies[index]),
+        Err(_) if agent as usize >= count => Err(RenderError::UnknownCameraAgent { camera, agent, count }),
+        Err(_) => Err(RenderError::CameraAgent { camera, agent, time_s }),
+    }
 }
 
 fn orbit_eye_m(orbit: &CameraOrbit, time_s: f32) -> Vec3 {

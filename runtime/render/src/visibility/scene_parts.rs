@@ -88,12 +88,11 @@ pub struct SceneParts {
 }
 
 impl SceneParts {
-    /// Appends the cones and triangles of another part of the same frame, with the same textures.
-    pub(crate) fn extend(&mut self, other: Self) {
-        self.cones.extend(other.cones);
-        self.occluders.extend(other.occluders);
+    /// Appends the cones and triangles of another part of the frame, whose triangles show textures of this one.
+    pub(crate) fn extend(&mut self, other: &Self) {
+        self.cones.extend(&other.cones);
+        self.occluders.extend(&other.occluders);
         self.meshes.extend(&other.meshes);
-        self.textures = other.textures;
     }
 
     /// Colour and alpha of a triangle's texture at a point, by the weights of its corners; none without texture.

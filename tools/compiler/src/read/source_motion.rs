@@ -21,8 +21,8 @@ pub(crate) trait FramePoser {
     /// Poses one frame. Joints that `is_needed` does not mark may keep any pose; a parent of a marked joint is marked.
     fn pose(&mut self, frame: usize, is_needed: &[bool], poses: &mut JointPoses);
 
-    /// Poses all joints as the file's skeleton is at rest; a poser without a rest pose leaves them.
-    fn pose_at_rest(&mut self, _poses: &mut JointPoses) {}
+    /// Poses all joints as the file's skeleton is at rest.
+    fn pose_at_rest(&mut self, poses: &mut JointPoses);
 
     /// Frees what only frames before this one need.
     fn free_before(&mut self, _frame: usize) {}
@@ -63,7 +63,7 @@ impl<'a> SourceMotion<'a> {
         Ok(clip)
     }
 
-    /// All joints at rest; all at the origin where the file has no rest pose.
+    /// All joints as the file's skeleton is at rest.
     pub(crate) fn rest(&mut self) -> JointPoses {
         let mut poses = self.origin();
         self.poser.pose_at_rest(&mut poses);
@@ -136,6 +136,8 @@ mod tests {
                 poses.positions[joint] = DVec3::new(frame as f64, joint as f64, 0.0);
             }
         }
+
+        fn pose_at_rest(&mut self, _: &mut JointPoses) {}
 
         fn free_before(&mut self, frame: usize) {
             self.freed.borrow_mut().push(frame);

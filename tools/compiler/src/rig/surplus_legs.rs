@@ -103,13 +103,16 @@ impl<'a> Stance<'a> {
 
     /// Whether a pair begins as high as legs do.
     fn begins_as_legs(&self, pair: &LimbPair) -> bool {
-        self.holds(pair.limbs.each_ref().map(|limb| limb.joints[0]), 0, |from, hip| {
-            self.height(from, hip).abs() < BEGINNING
-        })
+        self.holds(beginnings(pair), 0, |from, hip| self.height(from, hip).abs() < BEGINNING)
     }
 
     /// Whether a pair begins away from the hips.
     fn begins_away(&self, pair: &LimbPair) -> bool {
-        self.holds(pair.limbs.each_ref().map(|limb| limb.joints[0]), 0, |from, hip| self.distance(from, hip) > AWAY)
+        self.holds(beginnings(pair), 0, |from, hip| self.distance(from, hip) > AWAY)
     }
+}
+
+/// The joints with which the limbs of a pair begin.
+fn beginnings(pair: &LimbPair) -> [usize; 2] {
+    pair.limbs.each_ref().map(|limb| limb.joints[0])
 }

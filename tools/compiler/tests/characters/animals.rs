@@ -1,4 +1,5 @@
-//! Animals and things as other tools write them: each is refused by name with a remedy, whatever its joints are called.
+//! Animals and things as other tools write them. Each is refused, and the error says what it is and what to do. Names of
+//! joints do not matter.
 
 use std::path::Path;
 

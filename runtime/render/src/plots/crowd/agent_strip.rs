@@ -5,7 +5,7 @@
 //! view, metres: the body stands on the x axis, and the eye looks along y.
 
 use std::f32::consts::FRAC_PI_2;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::{AgentFrame, ExtraFrame, Header, Recording, sample, sample_extra};
@@ -24,7 +24,7 @@ use crate::raster::png_frame;
 use crate::raster::text::TextAnchor;
 use crate::top_view::FrameRange;
 use crate::top_view::sequence::{frame_numbers, frame_times, make_folder};
-use crate::visibility::{Lens, SamplePattern, SceneParts};
+use crate::visibility::{Lens, SamplePattern};
 
 /// Greatest number of times in a row, and in a strip.
 const TIMES: [usize; 2] = [16, 256];
@@ -83,8 +83,7 @@ pub fn write_agent_strips(recording: &Recording, options: &StripOptions) -> Resu
         .map(|&agent| agent_strip(recording, &options.characters, agent, &times_s))
         .collect::<Result<_, _>>()?;
     make_folder(&options.folder)?;
-    let write = |(path, strip): (&PathBuf, &Pixmap)| png_frame::write(Path::new(path), strip);
-    paths.iter().zip(&strips).try_for_each(write)?;
+    paths.iter().zip(&strips).try_for_each(|(path, strip)| png_frame::write(path, strip))?;
     Ok(paths)
 }
 
@@ -170,16 +169,17 @@ fn draw_view(view: &CameraView<'_>, shown: &[Moment], turn_rad: f32, size_px: Ve
     let middle_m = Vec3::new(0.5 * width_m, 0.0, MIDDLE_M);
     let size = [size_px.x as u32, size_px.y as u32];
     let lens = Lens::orthographic(size, middle_m - EYE_M * direction, direction, width_m);
-    let mut scene = SceneParts::default();
-    for (column, moment) in shown.iter().enumerate() {
+    let shot = |time_s: f64| Shot { lens, time_s, eyes_of: None, fog_m: None };
+    let parts = |(column, moment): (usize, &Moment)| {
         let position_m = Vec2::new((column as f32 + 0.5) * CELL_M.x, 0.0);
         let facing_rad = moment.frame.root.facing_rad + turn_rad;
         let frame = AgentFrame { root: Root { position_m, facing_rad }, ..moment.frame };
-        let shot = Shot { lens, time_s: moment.time_s, eyes_of: None, fog_m: None };
-        scene.extend(view.scene(&shot, &[frame], &moment.extra));
-    }
-    let shot = Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None };
-    view.draw_scene(&shot, &scene).to_display()
+        view.scene(&shot(moment.time_s), &[frame], &moment.extra)
+    };
+    let mut bodies = shown.iter().enumerate().map(parts);
+    let mut scene = bodies.next().unwrap_or_default();
+    bodies.for_each(|body| scene.extend(&body));
+    view.draw_scene(&shot(0.0), &scene).to_display()
 }
 
 /// Writes time, speed and turn of a moment below its body.

@@ -23,7 +23,8 @@ use crate::world::neighbours::neighbour_lanes::Lanes;
 
 /// W: weight of the half-plane where all agents ahead go the same way; that of an agent in contact is 1.
 const WEIGHT: f32 = 0.7;
-/// Weight below which there is no half-plane: where all half-planes can be kept, each is, whatever its weight.
+/// Weight below which there is no half-plane. Weights matter only where not all half-planes can be kept: elsewhere a
+/// half-plane of the least weight would be kept in full.
 const WEIGHT_MIN: f32 = 0.02;
 
 /// The half-plane of an agent that queues behind its neighbours, given their urgencies; none where it does not queue.

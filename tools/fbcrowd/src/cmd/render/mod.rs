@@ -87,6 +87,13 @@ struct ExrArgs {
     colour_space: Option<ColourSpaceArg>,
 }
 
+impl ExrArgs {
+    /// Whether an option is given.
+    fn is_given(&self) -> bool {
+        self.passes.is_some() || self.compression.is_some() || self.colour_space.is_some()
+    }
+}
+
 /// Options of `--view camera`.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Camera view")]
@@ -140,6 +147,12 @@ impl CameraArgs {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    if !args.agent.is_empty() && args.overlay.is_none() && args.view != ViewArg::Strip {
+        return Err(Failure::bad("--agent names whom --overlay or --view strip shows; add one of these"));
+    }
+    if args.exr.is_given() && args.view != ViewArg::Camera {
+        return Err(Failure::bad("--passes, --compression and --colour-space need --view camera"));
+    }
     let recording = rendering::open(&args.recording)?;
     let rendered = match args.view {
         ViewArg::Top => render_top(args, &recording)?,
@@ -169,9 +182,6 @@ fn video_options(args: &Args, inputs: &[PathBuf]) -> Result<Option<VideoOptions>
 }
 
 fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Failure> {
-    if args.exr.passes.is_some() || args.exr.compression.is_some() || args.exr.colour_space.is_some() {
-        return Err(Failure::bad("--passes, --compression and --colour-space need --view camera".to_owned()));
-    }
     if let Some(option) = args.camera.given() {
         return Err(Failure::bad(format!("{option} belongs to a camera; add --view camera")));
     }
@@ -197,8 +207,7 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     if args.overlay.is_some() {
         return Err(Failure::bad("--overlay is drawn in the view from above; remove --view camera".to_owned()));
     }
-    let ExrArgs { passes, compression, colour_space } = &args.exr;
-    if !matches!(args.format, FormatArg::Exr) && (passes.is_some() || compression.is_some() || colour_space.is_some()) {
+    if !matches!(args.format, FormatArg::Exr) && args.exr.is_given() {
         return Err(Failure::bad(
             "--passes, --compression and --colour-space belong to EXR; add --format exr".to_owned(),
         ));
@@ -244,7 +253,7 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
 /// Draws a strip of each agent.
 fn render_strips(args: &Args, recording: &Recording) -> Result<Answer, Failure> {
     if args.agent.is_empty() {
-        return Err(Failure::bad("--view strip draws single agents, and none is named; add --agent N".to_owned()));
+        return Err(Failure::bad("--view strip draws single agents, and none is named; add --agent N"));
     }
     let others = [
         ("--overlay", args.overlay.is_some()),
@@ -273,9 +282,6 @@ fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
             "--overlay constraints draws the velocity space of an agent, and no agent is named; add --agent N (0 to {})",
             count.saturating_sub(1)
         ))),
-        None if !args.agent.is_empty() => {
-            Err(Failure::bad("--agent names whom --overlay or --view strip shows; add one of these".to_owned()))
-        }
         Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),
     }
 }
