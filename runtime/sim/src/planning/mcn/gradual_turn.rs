@@ -9,14 +9,16 @@
 //! ```
 //!
 //! where α is the angle to the preferred facing and v the body's speed. A body that cannot step aside goes only where it
-//! faces, and turns for any angle: d_0 = 0. World axes, m/s, radians.
+//! faces; it turns for any angle, and sooner: d_0 = 0, and a greater s_1. World axes, m/s, radians.
 
 use glam::Vec2;
 
 /// s_0: share of the angle by which a standing body's plan is ahead (docs/tuning.md).
 const SHARE_AT_REST: f32 = 0.3;
 /// s_1: how much that share grows with the speed, 1/(m/s).
-const SHARE_PER_MPS: f32 = 0.5;
+const SHARE_PER_MPS: f32 = 0.25;
+/// s_1 of a body that cannot step aside, 1/(m/s): with less it circles about its goal.
+const SHARE_PER_MPS_AHEAD: f32 = 0.5;
 /// a_0: greatest angle by which a standing body's plan is ahead, rad: 20°, 70 °/s within T_turn.
 const AHEAD_AT_REST_RAD: f32 = 0.35;
 /// a_1: how much that angle grows with the speed, rad/(m/s).
@@ -33,7 +35,8 @@ pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_
     let tolerance_rad =
         if steps_aside { TOLERANCE_AT_REST_RAD } else { 0.0 } * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
     let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
-    let share = (SHARE_AT_REST + SHARE_PER_MPS * speed_mps).min(1.0);
+    let share_per_mps = if steps_aside { SHARE_PER_MPS } else { SHARE_PER_MPS_AHEAD };
+    let share = (SHARE_AT_REST + share_per_mps * speed_mps).min(1.0);
     let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps;
     let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
     let (sin, cos) = libm::sincosf(ahead_rad);
@@ -51,9 +54,12 @@ mod tests {
     }
 
     #[test]
-    fn small_turns_of_a_walk_are_planned_whole() {
-        for facing_rad in [-0.5, -0.1, 0.0, 0.1, 0.5] {
-            assert!((ahead_rad(facing_rad, 1.4) - facing_rad).abs() < 1e-5, "{facing_rad}");
+    fn plan_of_a_small_turn_is_ahead_by_the_share_of_the_speed() {
+        for (speed_mps, share) in [(0.6, 0.45), (1.4, 0.65), (3.0, 1.0)] {
+            for facing_rad in [-0.5, -0.1, 0.0, 0.1, 0.5] {
+                let error_rad = ahead_rad(facing_rad, speed_mps) - share * facing_rad;
+                assert!(error_rad.abs() < 1e-5, "{facing_rad} rad at {speed_mps} m/s");
+            }
         }
     }
 
@@ -75,7 +81,13 @@ mod tests {
     }
 
     #[test]
+    fn body_that_cannot_step_aside_turns_sooner() {
+        let ahead_rad = |steps_aside| gradual_facing(Vec2::X, Vec2::from_angle(0.4), 1.0, steps_aside).to_angle();
+        assert!((ahead_rad(true) - 0.22).abs() < 1e-5 && (ahead_rad(false) - 0.32).abs() < 1e-5);
+    }
+
+    #[test]
     fn standing_body_turns_less_than_a_walking_one() {
-        assert!(ahead_rad(0.5, 0.0) < 0.2 && ahead_rad(0.5, 1.4) > 0.49);
+        assert!(ahead_rad(0.5, 0.0) < 0.2 && ahead_rad(0.5, 1.4) > 0.3);
     }
 }

@@ -22,7 +22,7 @@ use crate::planning::plan::VelocitySet;
 /// Speed below which a velocity has no direction to face, m/s.
 const STANDING_MPS: f32 = 0.1;
 /// Speed below which an agent shuffles and may hold its facing without limit, m/s (docs/tuning.md).
-const SHUFFLING_MPS: f32 = 0.7;
+const SHUFFLING_MPS: f32 = 1.0;
 /// Cosine of the angle to the facing within which a velocity is not a side-step: 10°, as much as gait noise in the turn
 /// rate.
 const ALIGNED_COS: f32 = 0.984_807_8;
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn strafing_has_a_limit_and_needs_rest() {
-        let aside = Vec2::new(0.6, 0.8);
+        let aside = Vec2::new(0.66, 0.88);
         let (spent, orientation) = walk_on(input(aside), McnParams::default().strafing_limit_s + 0.5);
         assert_eq!(orientation.facing, aside.normalize());
         let (restless, _) = walk_on(OrientationInput { velocity_mps: Vec2::X, ..spent }, 0.5);
@@ -218,9 +218,9 @@ mod tests {
 
     #[test]
     fn agent_steps_back_then_turns() {
-        let (_, early) = walk_on(input(-0.8 * Vec2::X), 1.0);
+        let (_, early) = walk_on(input(-1.1 * Vec2::X), 1.0);
         assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
-        let (_, late) = walk_on(input(-0.8 * Vec2::X), 2.5);
+        let (_, late) = walk_on(input(-1.1 * Vec2::X), 2.5);
         assert_eq!((late.facing, late.set), (-Vec2::X, VelocitySet::Turning));
     }
 
