@@ -7,8 +7,9 @@
 //!
 //! An agent that faces v_pref while it walks in another direction side-steps, so the first line also requires that the
 //! holding set, at that facing, holds v_i: a body that the database cannot move so turns. Stepping back is our mirror
-//! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit. Both times
-//! are contiguous and start again only after a rest at aligned facing; without that rule the facing would flicker.
+//! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit; the faster it
+//! moves, the nearer to v_i it faces, since in crowds speeds waver. Both times are contiguous and start again only after
+//! a rest at aligned facing; without that rule the facing would flicker.
 //! Where v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or behind turns on the
 //! spot.
 //!
@@ -21,8 +22,10 @@ use crate::planning::plan::VelocitySet;
 
 /// Speed below which a velocity has no direction to face, m/s.
 const STANDING_MPS: f32 = 0.1;
-/// Speed below which an agent shuffles and may hold its facing without limit, m/s (docs/tuning.md).
-const SHUFFLING_MPS: f32 = 1.0;
+/// Speed up to which an agent shuffles and may hold its facing without limit, m/s (docs/tuning.md).
+const SHUFFLING_MPS: f32 = 0.7;
+/// Speed from which an agent that may not hold its facing faces v_i wholly, m/s.
+const WALKING_MPS: f32 = 1.3;
 /// Cosine of the angle to the facing within which a velocity is not a side-step: 10°, as much as gait noise in the turn
 /// rate.
 const ALIGNED_COS: f32 = 0.984_807_8;
@@ -68,7 +71,7 @@ pub(crate) struct Orientation {
 /// 2. v_i = 0: keep the facing, or turn to v_pref on the spot;
 /// 3. v_i along v_pref: face v_pref, or v_i until rested;
 /// 4. side-step or step back in time: hold the facing of v_pref;
-/// 5. otherwise: face v_i.
+/// 5. otherwise: face v_i, or between v_pref and v_i while it hardly walks.
 pub(crate) fn decide(
     input: &OrientationInput,
     holds: impl FnOnce(Vec2) -> bool,
@@ -91,17 +94,24 @@ pub(crate) fn decide(
         return rest(input, if turned_away { planned } else { preferred }, dt_s, params);
     }
     let steps_back = preferred.dot(planned) < 0.0;
-    let shuffles = input.velocity_mps.length() < SHUFFLING_MPS;
     let in_time = if steps_back {
         input.stepping_back_s < params.stepping_back_limit_s && preferred.dot(input.forward) >= HELD_COS
     } else {
         input.strafing_s < params.strafing_limit_s
     };
-    if (in_time || shuffles) && holds(preferred) {
+    let walking_share = if in_time { 0.0 } else { walking_share(input.velocity_mps.length()) };
+    if walking_share == 1.0 || !holds(preferred) {
+        turn(input, planned, params) // case 5
+    } else if walking_share == 0.0 {
         hold(input, preferred, steps_back, dt_s) // case 4
     } else {
-        turn(input, planned, params) // case 5
+        turn(input, preferred.lerp(planned, walking_share).normalize_or(planned), params) // case 5
     }
+}
+
+/// How much an agent walks rather than shuffles: 0 to 1.
+fn walking_share(speed_mps: f32) -> f32 {
+    ((speed_mps - SHUFFLING_MPS) / (WALKING_MPS - SHUFFLING_MPS)).clamp(0.0, 1.0)
 }
 
 /// Without §4.5: the facing follows v_i; an agent that stands keeps it.
@@ -138,9 +148,9 @@ fn hold(input: &OrientationInput, preferred: Vec2, steps_back: bool, dt_s: f32) 
 }
 
 /// Case 5: the facing follows v_i, and keeps following: both times count as spent until a rest.
-fn turn(input: &OrientationInput, planned: Vec2, params: &McnParams) -> Orientation {
+fn turn(input: &OrientationInput, facing: Vec2, params: &McnParams) -> Orientation {
     Orientation {
-        facing: planned,
+        facing,
         set: VelocitySet::Turning,
         strafing_s: input.strafing_s.max(params.strafing_limit_s + REST_S),
         stepping_back_s: input.stepping_back_s.max(params.stepping_back_limit_s + REST_S),
@@ -207,9 +217,9 @@ mod tests {
 
     #[test]
     fn strafing_has_a_limit_and_needs_rest() {
-        let aside = Vec2::new(0.66, 0.88);
+        let aside = Vec2::new(0.84, 1.12);
         let (spent, orientation) = walk_on(input(aside), McnParams::default().strafing_limit_s + 0.5);
-        assert_eq!(orientation.facing, aside.normalize());
+        assert!(orientation.facing.distance(aside.normalize()) < 1e-6);
         let (restless, _) = walk_on(OrientationInput { velocity_mps: Vec2::X, ..spent }, 0.5);
         assert_eq!(decided(&OrientationInput { velocity_mps: aside, ..restless }, true).set, VelocitySet::Turning);
         let (rested, _) = walk_on(OrientationInput { velocity_mps: Vec2::X, ..spent }, 1.5);
@@ -218,10 +228,23 @@ mod tests {
 
     #[test]
     fn agent_steps_back_then_turns() {
-        let (_, early) = walk_on(input(-1.1 * Vec2::X), 1.0);
+        let (_, early) = walk_on(input(-1.4 * Vec2::X), 1.0);
         assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
-        let (_, late) = walk_on(input(-1.1 * Vec2::X), 2.5);
+        let (_, late) = walk_on(input(-1.4 * Vec2::X), 2.5);
         assert_eq!((late.facing, late.set), (-Vec2::X, VelocitySet::Turning));
+    }
+
+    #[test]
+    fn facing_out_of_time_nears_the_velocity_with_the_speed() {
+        let facing_rad = |speed_mps: f32| {
+            let (_, late) = walk_on(input(speed_mps * Vec2::new(0.6, 0.8)), 5.0);
+            late.facing.to_angle()
+        };
+        let facings_rad = [0.6, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4].map(facing_rad);
+        assert_eq!(facings_rad[0], 0.0);
+        assert!((facings_rad[6] - Vec2::new(0.6, 0.8).to_angle()).abs() < 1e-6);
+        // No step of .1 or .2 m/s turns it by more than 20°.
+        assert!(facings_rad.windows(2).all(|pair| pair[1] > pair[0] && pair[1] - pair[0] < 0.35), "{facings_rad:?}");
     }
 
     #[test]
