@@ -83,7 +83,7 @@ pub(crate) fn body(size: f64) -> HumanBody {
         segment_ends_m[toe.index()] = DVec3::new(0.07, 0.0, 0.0) * size;
     }
     let soles_m = [sole.map(|point| point * size); 2];
-    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m: soles_m }
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m: soles_m, shows_toe_ends: [true; 2] }
 }
 
 /// The clip of a walk; its phase 0 is at 0.37 of a period.

@@ -4,6 +4,9 @@
 //! above its planted height in this contact and v its speed in space. Heels strike behind the ankle: the heel is that
 //! of the sole here.
 //!
+//! A foot lands on any of its points that the source shows. An estimated toe tip lies straight ahead of the ball; the toes
+//! of a foot that lands on its ball bend up instead, so that tip would touch the ground too early.
+//!
 //! A foot that rolls off over its toes may creep before it leaves, more so in captures at 120 frames per second, where
 //! markers on the shoe tremble. So a toe-off is not earlier than the onset of the swing. A leg swings nearly as a
 //! pendulum and gathers speed evenly: the tangent to its speed where that grows fastest leads back to the instant of
@@ -73,23 +76,32 @@ pub(crate) struct ContactLimits {
     slide_ratio: f64,
     /// Duration for which the foot may exceed these limits in between, s.
     slip_s: f64,
+    /// Number of points that count, of heel, ball and toe tip.
+    points: usize,
 }
 
 impl ContactLimits {
     /// Limits of a foot that lands.
-    pub(crate) fn at_strike(body_speed_mps: f64) -> Self {
+    pub(crate) fn at_strike(body_speed_mps: f64, shows_toe_end: bool) -> Self {
         Self {
             height_m: STRIKE_HEIGHT_MAX_M,
             speed_mps: STRIKE_SPEED_MAX_MPS + STRIKE_SPEED_MAX_SHARE * body_speed_mps,
             slide_ratio: STRIKE_SLIDE_RATIO_MAX,
             slip_s: STRIKE_SLIP_MAX_S,
+            points: if shows_toe_end { 3 } else { 2 },
         }
     }
 
     /// Limits of a foot that leaves.
     pub(crate) fn at_off(body_speed_mps: f64) -> Self {
         let speed_mps = (OFF_SPEED_MAX_MPS + OFF_SPEED_MAX_SHARE * body_speed_mps).min(DRAG_MAX_MPS);
-        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps, slide_ratio: OFF_SLIDE_RATIO_MAX, slip_s: OFF_SLIP_MAX_S }
+        Self {
+            height_m: OFF_HEIGHT_MAX_M,
+            speed_mps,
+            slide_ratio: OFF_SLIDE_RATIO_MAX,
+            slip_s: OFF_SLIP_MAX_S,
+            points: 3,
+        }
     }
 }
 
@@ -112,7 +124,7 @@ impl<'a> ContactPoints<'a> {
             percentile(heights_m, PLANTED_PERCENTILE).unwrap_or(0.0)
         });
         let mut contact = Self { feet, heights_m, slide_mps: 0.0, frame_rate_hz };
-        let speeds_mps = frames.map(|frame| contact.height_and_speed(frame as f64).1);
+        let speeds_mps = frames.map(|frame| contact.height_and_speed(frame as f64, 3).1);
         contact.slide_mps = percentile(speeds_mps, 0.5).unwrap_or(0.0);
         contact
     }
@@ -151,7 +163,7 @@ impl<'a> ContactPoints<'a> {
 
     /// (h/h₀)² + (v/v₀)² of the contact point: 1 at the end of a contact, less within.
     fn excess(&self, limits: &ContactLimits, tick: isize) -> f64 {
-        let (height_m, speed_mps) = self.height_and_speed(frame_of(tick));
+        let (height_m, speed_mps) = self.height_and_speed(frame_of(tick), limits.points);
         let speed_max_mps = limits.speed_mps.max(limits.slide_ratio * self.slide_mps);
         let (height, speed) = (height_m / limits.height_m, speed_mps / speed_max_mps);
         height * height + speed * speed
@@ -192,7 +204,7 @@ impl<'a> ContactPoints<'a> {
 
     /// Height of the contact point above its planted height (m), and its speed (m/s): of the lowest of the foot's
     /// points, of several as low the slowest.
-    fn height_and_speed(&self, frame: f64) -> (f64, f64) {
+    fn height_and_speed(&self, frame: f64, points: usize) -> (f64, f64) {
         let half_frames = self.half_span_frames();
         let [from_m, at_m, to_m] =
             [-half_frames, 0.0, half_frames].map(|frames| self.points_m(self.clamped(frame + frames)));
@@ -202,7 +214,7 @@ impl<'a> ContactPoints<'a> {
             (height_m.max(0.0), speeds_mps[point])
         };
         let lower = |a: (f64, f64), b: (f64, f64)| if b < a { b } else { a };
-        lower(lower(point(0), point(1)), point(2))
+        (1..points).map(point).fold(point(0), lower)
     }
 
     /// Speeds in space of the foot's points, m/s.

@@ -48,14 +48,16 @@ pub(crate) fn depth_s(stances: &[FootStance], frame: f64, frame_rate_hz: f64) ->
 }
 
 /// The stances of one foot, in order of time. `feet` holds heel on the sole, ball and toe tip at each frame, `planted`
-/// whether the foot is planted.
+/// whether the foot is planted. A toe tip that the source does not show (`shows_toe_end`) lands with the ball.
 pub(crate) fn foot_stances(
     feet: &[[DVec3; 3]],
+    shows_toe_end: bool,
     planted: &[bool],
     frame_rate_hz: f64,
     body_speed_mps: f64,
 ) -> Vec<FootStance> {
-    let [at_strike, at_off] = [ContactLimits::at_strike(body_speed_mps), ContactLimits::at_off(body_speed_mps)];
+    let at_strike = ContactLimits::at_strike(body_speed_mps, shows_toe_end);
+    let at_off = ContactLimits::at_off(body_speed_mps);
     let contacts = frame_runs(planted, true);
     let last = ticks(feet.len().saturating_sub(1));
     // The search for an end may go up to the middle of the swing before or after.
@@ -114,7 +116,7 @@ mod tests {
         };
         let feet: Vec<[DVec3; 3]> = clip.frames.iter().enumerate().map(foot).collect();
         let [contacts] = contact_readings(&feet, frame_rate_hz, 1.2, [1.0]);
-        let stances = foot_stances(&feet, &contacts.planted, frame_rate_hz, 1.2);
+        let stances = foot_stances(&feet, true, &contacts.planted, frame_rate_hz, 1.2);
         assert_eq!(stances.len(), 4, "{stances:?}");
         for (step, stance) in stances.iter().enumerate() {
             let events_s = [stance.strike_frame, stance.off_frame].map(|frame| frame / frame_rate_hz);
@@ -157,15 +159,37 @@ mod tests {
             let feet: Vec<[DVec3; 3]> =
                 (0..(1.6 * frame_rate_hz) as usize).map(|frame| creeping_foot(frame as f64 / frame_rate_hz)).collect();
             let [contacts] = contact_readings(&feet, frame_rate_hz, 1.2, [1.0]);
-            let off_s = foot_stances(&feet, &contacts.planted, frame_rate_hz, 1.2)[0].off_frame / frame_rate_hz;
+            let off_s = foot_stances(&feet, true, &contacts.planted, frame_rate_hz, 1.2)[0].off_frame / frame_rate_hz;
             assert!((off_s - 0.5).abs() < 1.0 / 30.0, "at {frame_rate_hz} Hz: {off_s} s");
         }
+    }
+
+    /// A foot that comes down at 0.4 m/s with its sole 45° steep until its ball lands at 0.5 s, then turns flat. Its tip,
+    /// straight ahead of the ball, is then below the ground: it lands earlier.
+    fn steep_foot(time_s: f64) -> [DVec3; 3] {
+        let pitch_rad = std::f64::consts::FRAC_PI_4 * (1.0 - (time_s - 0.5).clamp(0.0, 0.1) / 0.1);
+        let height_m = (0.4 * (0.5 - time_s)).clamp(0.0, 0.08);
+        let along = DVec3::new(libm::cos(pitch_rad), 0.0, -libm::sin(pitch_rad));
+        [-0.15, 0.0, 0.06].map(|along_m| {
+            let point_m = height_m * DVec3::Z + along_m * along;
+            point_m.with_z(point_m.z.max(0.0))
+        })
+    }
+
+    #[test]
+    fn estimated_toe_tips_do_not_land() {
+        let feet: Vec<[DVec3; 3]> = (0..90).map(|frame| steep_foot(f64::from(frame) / 60.0)).collect();
+        let planted: Vec<bool> = (0..90).map(|frame| frame >= 30).collect();
+        let strike_s =
+            |shows_toe_end: bool| foot_stances(&feet, shows_toe_end, &planted, 60.0, 1.2)[0].strike_frame / 60.0;
+        assert!((strike_s(false) - 0.5).abs() < 0.02, "{}", strike_s(false));
+        assert!(strike_s(true) < 0.46, "{}", strike_s(true));
     }
 
     #[test]
     fn contacts_cut_by_the_clip_have_no_such_end() {
         let feet = vec![[DVec3::ZERO; 3]; 30];
-        assert_eq!(foot_stances(&feet, &[true; 30], 30.0, 0.0), [FootStance::ALWAYS]);
+        assert_eq!(foot_stances(&feet, true, &[true; 30], 30.0, 0.0), [FootStance::ALWAYS]);
     }
 
     #[test]

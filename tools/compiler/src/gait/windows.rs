@@ -81,10 +81,10 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Ra
     let mut left = FootPoints::default();
     let track = BodyTrack::of(clip, body, |joints| left.push(joints, body, 0));
     // One foot after the other: the points of a long clip take much memory.
-    let left = left.readings(&track);
+    let left = left.readings(&track, body.shows_toe_ends[0]);
     let mut right = FootPoints::default();
     (0..track.frame_count()).for_each(|frame| right.push(&track.joints(frame), body, 1));
-    let mut sides = [left, right.readings(&track)];
+    let mut sides = [left, right.readings(&track, body.shows_toe_ends[1])];
     let left_out = LeftOutFrames { parts: left_out, loop_frames: clip.loop_frames() };
     let steps = READINGS.map(|reading| {
         let stepping = sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].stepping));
@@ -160,14 +160,14 @@ impl FootPoints {
         self.heels_m.push(joints.landing_points_m(body, side)[0]);
     }
 
-    fn readings(mut self, track: &BodyTrack) -> FootReadings {
+    fn readings(mut self, track: &BodyTrack, shows_toe_end: bool) -> FootReadings {
         let (frame_rate_hz, speed_mps) = (track.frame_rate_hz, track.mean_speed_mps());
         let contacts = contact_readings(&self.measured_m, frame_rate_hz, speed_mps, LENIENCES);
         // A foot lands and leaves with the heel of the sole, and with ball and toe tip where slide is measured.
         self.measured_m.iter_mut().zip(&self.heels_m).for_each(|([heel_m, ..], landing_m)| *heel_m = *landing_m);
         let stances = contacts
             .each_ref()
-            .map(|contacts| foot_stances(&self.measured_m, &contacts.planted, frame_rate_hz, speed_mps));
+            .map(|contacts| foot_stances(&self.measured_m, shows_toe_end, &contacts.planted, frame_rate_hz, speed_mps));
         FootReadings { contacts, stances }
     }
 }

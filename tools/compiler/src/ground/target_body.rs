@@ -62,7 +62,8 @@ fn median_body(bodies: &[&HumanBody]) -> HumanBody {
     // All feet are measured alike: on the sole where every clip shows it, else at the joints of the clips that do not.
     let at_joints: Vec<&HumanBody> = bodies.iter().copied().filter(|body| body.measured_m != body.soles_m).collect();
     let measured_m = if at_joints.is_empty() { soles_m } else { median_feet(&at_joints, |body| body.measured_m) };
-    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m }
+    let shows_toe_ends = [0, 1].map(|side| bodies.iter().all(|body| body.shows_toe_ends[side]));
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m, shows_toe_ends }
 }
 
 /// Median of each component of a vector.

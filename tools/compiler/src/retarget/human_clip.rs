@@ -98,6 +98,8 @@ pub struct HumanBody {
     /// Points at which slide is measured, in the same frames: the soles, or the joints over them (see
     /// [`motiondb::body::Foot`]).
     pub measured_m: [[DVec3; 3]; 2],
+    /// `[left, right]`: whether the source shows the end of the toe; else the toe tip is estimated.
+    pub shows_toe_ends: [bool; 2],
 }
 
 /// Pose of one frame.
@@ -178,6 +180,7 @@ impl HumanBody {
             segment_ends_m: self.segment_ends_m.map(|end| end * scale),
             soles_m: points(self.soles_m),
             measured_m: points(self.measured_m),
+            shows_toe_ends: self.shows_toe_ends,
         }
     }
 }

@@ -33,6 +33,8 @@ pub(crate) struct Soles {
     pub points_m: [[DVec3; 3]; 2],
     /// `[left, right]`: the points at which slide is measured: `…Sole` joints, else the joints over the sole.
     pub measured_m: [[DVec3; 3]; 2],
+    /// `[left, right]`: whether the source shows the end of the toe.
+    pub shows_toe_ends: [bool; 2],
     /// Height of the ground in the source, m.
     pub ground_m: f64,
 }
@@ -44,12 +46,14 @@ pub(crate) fn soles(calibrated: &CalibratedTracks, leg_m: f64) -> Soles {
         let points_m = [sole_joints(calibrated, 0, left), sole_joints(calibrated, 1, right)];
         let height = |joint| planted_height_m(tracks, |frame| tracks.clip.position(frame, joint).z);
         let ground_m = left.into_iter().chain(right).map(height).fold(f64::INFINITY, f64::min);
-        return Soles { points_m, measured_m: points_m, ground_m };
+        return Soles { points_m, measured_m: points_m, shows_toe_ends: [true; 2], ground_m };
     }
     let ground_m = ground_height_m(tracks, leg_m);
-    let measured_m = [0, 1].map(|side| foot_joints(calibrated, side, leg_m));
+    let toe_ends_m = Joint::TOES.map(|toe| toe_end(calibrated, toe, leg_m));
+    let tips_m = toe_ends_m.map(|end| end.unwrap_or(TIP_OVER_LEG * leg_m * DVec3::X));
+    let measured_m = [0, 1].map(|side| foot_joints(calibrated, side, tips_m[side]));
     let points_m = [0, 1].map(|side| under_joints(tracks, side, measured_m[side], ground_m));
-    Soles { points_m, measured_m, ground_m }
+    Soles { points_m, measured_m, shows_toe_ends: toe_ends_m.map(|end| end.is_some()), ground_m }
 }
 
 /// The `…Sole` joints of a foot.
@@ -78,16 +82,20 @@ fn ground_height_m(tracks: &JointTracks, leg_m: f64) -> f64 {
     if (0.0..ZERO_TRUSTED_OVER_LEG * leg_m).contains(&lowest) { 0.0 } else { lowest - THICKNESS_OVER_LEG * leg_m }
 }
 
-/// Joint of the heel (the ankle where there is none), ball, and end of the toe.
-fn foot_joints(calibrated: &CalibratedTracks, side: usize, leg_m: f64) -> [DVec3; 3] {
+/// End of a toe that the source shows, in the toe's frame, m.
+fn toe_end(calibrated: &CalibratedTracks, toe: Joint, leg_m: f64) -> Option<DVec3> {
+    calibrated.mean_end(toe).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m)
+}
+
+/// Joint of the heel (the ankle where there is none), ball, and toe tip.
+fn foot_joints(calibrated: &CalibratedTracks, side: usize, tip: DVec3) -> [DVec3; 3] {
     let tracks = &calibrated.tracks;
     let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
     let heel = tracks.roles.heels[side]
         .map(|joint| calibrated.mean_in_frame_of(foot, |frame| tracks.clip.position(frame, joint)))
         .filter(|heel| heel.z < 0.0);
     let ball = calibrated.mean_in_frame_of(foot, |frame| tracks.position_m(toe, frame));
-    let end = calibrated.mean_end(toe).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
-    [heel.unwrap_or(DVec3::ZERO), ball, end.unwrap_or(TIP_OVER_LEG * leg_m * DVec3::X)]
+    [heel.unwrap_or(DVec3::ZERO), ball, tip]
 }
 
 /// The sole under the joints of a foot: as far below them as the flat foot's joints are over the ground.

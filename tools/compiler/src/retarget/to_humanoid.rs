@@ -176,5 +176,6 @@ fn body(calibrated: &CalibratedTracks, offsets_m: [DVec3; JOINT_COUNT], soles: S
         segment_ends_m[hand.index()] = calibrated.mean_end(hand).unwrap_or(adult);
         segment_ends_m[Joint::TOES[side].index()] = soles.points_m[side][2];
     }
-    HumanBody { offsets_m, segment_ends_m, soles_m: soles.points_m, measured_m: soles.measured_m }
+    let Soles { points_m: soles_m, measured_m, shows_toe_ends, .. } = soles;
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m, shows_toe_ends }
 }
