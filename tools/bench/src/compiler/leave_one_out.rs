@@ -10,11 +10,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::compiler::ground_truth::marine_files;
+use crate::compiler::least_blend::{least_rmse_m, positions_m};
 use crate::error::BenchError;
 use crate::kit::args::MocapArg;
 use crate::kit::database::bundled;
 use crate::kit::report::{BenchReport, Criterion};
-use crate::kit::statistics::share;
+use crate::kit::statistics::{median, share};
 
 /// Least share of the examples to which the blend is nearer than the nearest other example.
 const BETTER_SHARE: f64 = 0.75;
@@ -48,6 +49,9 @@ pub struct ClipSet {
     pub style: String,
     /// How near the others come to each example, as `fbcrowd inspect --leave-one-out` has it.
     pub leave_one_out: LeaveOneOut,
+    /// Median over the same examples of the least RMSE over all joints that a weighted mean of the others' joint positions
+    /// reaches with any weights that move the root as the example does, m; null without examples.
+    pub median_least_rmse_m: Option<f32>,
 }
 
 /// Runs the bench.
@@ -57,10 +61,8 @@ pub struct ClipSet {
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
     // Each style of a set is blended by itself.
-    let sets_of = |(name, db): (&'static str, MotionDb)| {
-        let of_style = |db: &MotionDb| ClipSet { name, style: db.style.clone(), leave_one_out: leave_one_out(db) };
-        db.styles().map(of_style).collect::<Vec<ClipSet>>()
-    };
+    let sets_of =
+        |(name, db): (&'static str, MotionDb)| db.styles().map(|db| ClipSet::of(name, db)).collect::<Vec<ClipSet>>();
     let databases = [
         ("Marine", compiled(&marine_files(folder))?),
         ("Bandai Namco", compiled(&motiondb_compiler::clip_files(&folder.join("bandai_namco"))?)?),
@@ -85,6 +87,17 @@ pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError
     Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })
 }
 
+impl ClipSet {
+    fn of(name: &'static str, db: &MotionDb) -> Self {
+        let (leave_one_out, positions_m) = (leave_one_out(db), positions_m(db));
+        let is_left_out = |name: &str| leave_one_out.examples.iter().any(|found| found.name == name);
+        let examples = db.examples.iter().filter(|example| is_left_out(&example.name));
+        let least_m = examples.filter_map(|example| least_rmse_m(db, example, &positions_m));
+        let median_least_rmse_m = median(least_m.map(|least_m| least_m as f32));
+        Self { name, style: db.style.clone(), leave_one_out, median_least_rmse_m }
+    }
+}
+
 fn compiled(files: &[PathBuf]) -> Result<MotionDb, BenchError> {
     Ok(compile::compile_files(files, &|_| ())?.db)
 }
@@ -97,10 +110,12 @@ fn text(details: &Details) -> String {
         let medians =
             |blended: Option<f32>, nearest: Option<f32>| format!("{} cm, nearest {} cm", cm(blended), cm(nearest));
         format!(
-            "{:<26}{better:3} of {:3} examples better by the blend; median {}; of each joint {}; {} on the hull's corners\n",
+            "{:<26}{better:3} of {:3} examples better by the blend; median {}, best mean of \
+             positions {} cm; of each joint {}; {} on the hull's corners\n",
             format!("{} {}", set.name, set.style).trim_end(),
             found.examples.len(),
             medians(found.median_blended_rmse_m, found.median_nearest_rmse_m),
+            cm(set.median_least_rmse_m),
             medians(found.median_joint_blended_rmse_m, found.median_joint_nearest_rmse_m),
             found.outside.len(),
         )

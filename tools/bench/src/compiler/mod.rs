@@ -2,7 +2,7 @@
 //!
 //! Enters: folders of clips, or the bundled ones. Leaves: differences from published measurements ([`import`], with
 //! [`ground_truth`] and [`reading_speed`]; [`gait`]); durations and bytes ([`compile`]); how well an example can be
-//! blended from the others ([`leave_one_out`]); whether bundled clips have the speeds in their names and resemble real
+//! blended from the others ([`leave_one_out`], and at best [`least_blend`]); whether bundled clips have the speeds in their names and resemble real
 //! clips ([`clips`], with [`gait_figures`] and [`similarity`]).
 
 pub mod clips;
@@ -11,6 +11,7 @@ pub mod gait;
 pub mod gait_figures;
 pub mod ground_truth;
 pub mod import;
+pub(crate) mod least_blend;
 pub mod leave_one_out;
 pub(crate) mod reading_speed;
 pub mod similarity;
