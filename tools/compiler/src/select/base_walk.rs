@@ -8,6 +8,9 @@ use crate::ground::root_arc::Rates;
 /// Speed of an unhurried human walk, m/s; m_sp is the straight walk nearest to it.
 const BASE_WALK_MPS: f64 = 1.2;
 
+/// Speed that makes a walk as unlike m_sp as a turn rate does, divided by that rate, m.
+const TURN_RADIUS_M: f64 = 1.0;
+
 /// A cycle that steps, as far as it matters for the choice of m_sp.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaseWalkCandidate {
@@ -20,14 +23,23 @@ pub(crate) struct BaseWalkCandidate {
 }
 
 /// Index of m_sp among cycles that step: of the upright ones, of these the straight, of these the ones with clean feet,
-/// the one nearest 1.2 m/s. A quality that none of them has does not count.
+/// the one nearest 1.2 m/s. A quality that none of them has does not count. Where none is straight, the rates of the root
+/// are to be nearest to those of a straight walk: a body leans in a circle, and turns its head.
 pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
     let faults =
         |walk: &BaseWalkCandidate| [!walk.is_upright, !goes_straight(&walk.rates.to_parameters()), walk.is_doubtful];
-    let distance_mps = |walk: &BaseWalkCandidate| (walk.rates.speed_mps - BASE_WALK_MPS).abs();
+    let distance = |walk: &BaseWalkCandidate| {
+        let Rates { speed_mps, turn_rate_rad_s, strafe_mps } = walk.rates;
+        let off_mps = speed_mps - BASE_WALK_MPS;
+        if goes_straight(&walk.rates.to_parameters()) {
+            return off_mps.abs();
+        }
+        let turn_mps = TURN_RADIUS_M * turn_rate_rad_s;
+        libm::sqrt(off_mps * off_mps + turn_mps * turn_mps + strafe_mps * strafe_mps)
+    };
     (0..stepping.len()).min_by(|&a, &b| {
         let (a, b) = (&stepping[a], &stepping[b]);
-        faults(a).cmp(&faults(b)).then(distance_mps(a).total_cmp(&distance_mps(b)))
+        faults(a).cmp(&faults(b)).then(distance(a).total_cmp(&distance(b)))
     })
 }
 
@@ -44,6 +56,11 @@ mod tests {
     fn base_walk_is_nearest_straight_walk() {
         assert_eq!(base_walk(&[candidate(3.0, 0.0), candidate(1.2, 0.5), candidate(1.0, 0.0)]), Some(2));
         assert_eq!(base_walk(&[]), None);
+    }
+
+    #[test]
+    fn of_circles_the_widest_is_the_base_walk() {
+        assert_eq!(base_walk(&[candidate(1.2, 2.2), candidate(1.6, 0.25), candidate(1.3, -1.5)]), Some(1));
     }
 
     #[test]
