@@ -69,7 +69,7 @@ impl Body {
         }
         look_at.follow(&plan, root.facing_rad, step);
         let drawn = motion.drawn_parameters(&context.db);
-        lean.follow(&drawn, motion.clip_acceleration_mps2(&context.db), step);
+        lean.follow(drawn, motion.played_lean_rad(context), step);
         let walking = drawn.velocity_mps().length() / context.base_mps;
         squeeze.follow(plan.gap_m, context.shoulder_breadth_m, step);
         secondary.follow(motion.phase, advanced, walking, step);

@@ -8,7 +8,7 @@ use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ExtraState, MotionState};
-use crate::synthesis::pose::{BodyClearance, ContactState, Lean, LookAt, SecondaryMotion, Squeeze, WeightShift};
+use crate::synthesis::pose::{BodyClearance, ContactState, ExcessLean, LookAt, SecondaryMotion, Squeeze, WeightShift};
 
 /// A simulated body.
 ///
@@ -52,8 +52,8 @@ pub struct Body {
     pub(crate) contact: ContactState,
     /// Where head and chest turn.
     pub(crate) look_at: LookAt,
-    /// Tilt of the trunk with the acceleration of the drawn motion.
-    pub(crate) lean: Lean,
+    /// Lean beyond that of the played motion.
+    pub(crate) lean: ExcessLean,
     /// Turn of the shoulders in a narrow gap.
     pub(crate) squeeze: Squeeze,
     /// How far it may reach to each side, world frame, m.

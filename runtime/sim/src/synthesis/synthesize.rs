@@ -12,7 +12,7 @@ use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{
-    BodyClearance, ContactState, FootMotion, Lean, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift,
+    BodyClearance, ContactState, ExcessLean, FootMotion, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift,
 };
 use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
 
@@ -40,7 +40,7 @@ impl Body {
             motion,
             contact,
             look_at: LookAt::default(),
-            lean: Lean::default(),
+            lean: ExcessLean::default(),
             secondary: SecondaryMotion::default(),
             squeeze: Squeeze::default(),
             room: ElbowRoom::default(),
@@ -63,7 +63,7 @@ impl Body {
         motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
         squeeze.turn(&mut posture.pose, &context.mean_rotations, skeleton);
-        lean.tilt(&mut posture.pose);
+        lean.lean(&mut posture);
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step));

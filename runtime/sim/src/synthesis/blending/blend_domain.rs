@@ -3,7 +3,7 @@
 //! A query is (v_f, ω_t, ω_s), m/s and rad/s. The answer holds the nearest parameters that the examples reach and the
 //! shares of the examples (`FbCrowd` §5, App. 10). An example without steps *stands*.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use motiondb::blend_space::{Locator, MAX_CORNERS, Shares};
 use motiondb::motion::{MotionDb, Parameters};
 use motiondb::velocity_sets::velocity_hull::is_holding;
@@ -11,6 +11,7 @@ use motiondb::velocity_sets::velocity_hull::is_holding;
 use crate::synthesis::blending::cadence_curve::CadenceCurve;
 use crate::synthesis::blending::example_mix::ExampleMix;
 use crate::synthesis::blending::pose_landmarks::PoseLandmarks;
+use crate::synthesis::pose::lean::balance::lean_in_curve_rad;
 
 /// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie straight beyond
 /// the query.
@@ -40,6 +41,8 @@ pub struct BlendDomain {
     locator: Locator,
     /// Parameters of each example.
     parameters: Vec<Parameters>,
+    /// Lean of each example by itself, forward and left, rad.
+    leans_rad: Vec<Vec2>,
     /// Whether each example stands.
     stands: Vec<bool>,
     /// Whether each example runs.
@@ -94,6 +97,7 @@ impl BlendDomain {
             cadence: CadenceCurve::new(|_| 1.0),
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
+            leans_rad: parameters.iter().map(lean_in_curve_rad).collect(),
             stands,
             runs,
             run_min_mps,
@@ -216,6 +220,11 @@ impl BlendDomain {
             shares = self.locator.locate(Parameters::from_vec3(query.to_vec3() / share));
         }
         with_standing(&shares, share, standing)
+    }
+
+    /// Lean of a mix by itself, forward and left, rad.
+    pub(crate) fn lean_rad(&self, mix: &ExampleMix) -> Vec2 {
+        mix.entries().iter().map(|&(example, share)| share * self.leans_rad[example as usize]).sum()
     }
 
     /// (v_f, ω_t, ω_s) of a root that moves by these shares.

@@ -18,6 +18,8 @@ use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::hybrid::step_timing::{GaitTiming, StepTiming};
+use crate::synthesis::pose::lean::balance::balanced_lean_rad;
+use crate::synthesis::semi_procedural::base_walk;
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
@@ -244,9 +246,13 @@ impl MotionState {
         self.drawn_parameters(db).velocity_mps()
     }
 
-    /// Acceleration of the root in the clip of a recorded transition, in the body's frame, m/s²; 0 outside one.
-    pub(crate) fn clip_acceleration_mps2(&self, db: &MotionDb) -> Vec2 {
-        self.transition.map_or(Vec2::ZERO, |played| played.acceleration_mps2(db))
+    /// Lean of the drawn motion by itself, forward and left, rad.
+    pub(crate) fn played_lean_rad(&self, context: &SynthesisContext) -> Vec2 {
+        match (self.mode, self.transition) {
+            (Mode::SemiProcedural, _) => Vec2::new(0.0, base_walk::lean_rad(&self.smoothed[0].parameters)),
+            (_, Some(played)) => balanced_lean_rad(played.acceleration_mps2(&context.db)),
+            _ => context.domain.lean_rad(&self.smoothed[0].mix),
+        }
     }
 
     fn tempo<'a>(&self, base_walk: &'a BaseWalk, parameters: Parameters) -> Tempo<'a> {

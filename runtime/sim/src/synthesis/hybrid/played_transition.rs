@@ -122,8 +122,11 @@ impl PlayedTransition {
 
     /// Acceleration of the clip's root, in the root's frame, m/s², at the clip's own pace.
     pub(crate) fn acceleration_mps2(&self, db: &MotionDb) -> Vec2 {
-        let earlier = Self { time_s: self.time_s - VELOCITY_SPAN_S, ..*self };
-        (self.velocity_mps(db) - earlier.velocity_mps(db)) / VELOCITY_SPAN_S
+        let action = self.action(db);
+        let [before, now, after] =
+            [-VELOCITY_SPAN_S, 0.0, VELOCITY_SPAN_S].map(|off_s| action.at(self.time_s + off_s).root);
+        let bend_m = before.position_m - 2.0 * now.position_m + after.position_m;
+        Vec2::from_angle(-now.facing_rad).rotate(bend_m) / (VELOCITY_SPAN_S * VELOCITY_SPAN_S)
     }
 
     /// Time until a swinging foot lands, s; the rest of the clip where it does not.

@@ -3,13 +3,14 @@
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
 //! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`,
-//! `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step; `upper_body` holds what
-//! trunk, head and arms do.
+//! `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step; `lean` tilts the body where
+//! it accelerates; `upper_body` holds what trunk, head and arms do.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
 pub(crate) mod heel_rise;
 pub(crate) mod ik;
+pub(crate) mod lean;
 pub(crate) mod leg;
 pub(crate) mod leg_clearance;
 pub(crate) mod pelvis;
@@ -19,9 +20,10 @@ pub(crate) mod weight_shift;
 
 pub(crate) use contact_state::{ContactState, FootMotion};
 pub(crate) use foot_lock::FootLock;
+pub(crate) use lean::ExcessLean;
 pub use leg::FootPose;
 pub(crate) use leg::PosedLeg;
 pub use posture::Posture;
 pub use upper_body::LackingMotion;
-pub(crate) use upper_body::{BodyClearance, Lean, LookAt, SecondaryMotion, Squeeze};
+pub(crate) use upper_body::{BodyClearance, LookAt, SecondaryMotion, Squeeze};
 pub(crate) use weight_shift::WeightShift;

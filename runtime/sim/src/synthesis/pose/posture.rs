@@ -3,9 +3,10 @@
 //!
 //! Root frame (x forward, y left, z up), metres. Pairs are `[left, right]`.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use motiondb::body::{Pose, Skeleton};
 
+use crate::synthesis::pose::lean::incline::incline;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg, legs};
 use crate::synthesis::pose::{heel_rise, ik, pelvis};
 
@@ -58,6 +59,21 @@ impl Posture {
     pub(crate) fn shift(&mut self, left_m: f32) {
         self.pose.pelvis_m.y += left_m;
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.y += left_m);
+    }
+
+    /// Tilts the body over its feet, and its trunk by `trunk_rad` in all; the pelvis stays over the root. Returns the
+    /// displacement of the feet, forward and left, m, by which the targets are to move.
+    pub(crate) fn incline(&mut self, pelvis_rad: Vec2, trunk_rad: Vec2) -> Vec2 {
+        let turn = incline(&mut self.pose, pelvis_rad, trunk_rad);
+        // The pelvis as it would be turned about the ground under it.
+        let before_m = self.pose.pelvis_m;
+        let over_m = turn * (Vec3::Z * before_m.z);
+        self.pose.pelvis_m.z = over_m.z;
+        for leg in &mut self.legs {
+            leg.positions_m = leg.positions_m.map(|position_m| self.pose.pelvis_m + turn * (position_m - before_m));
+            leg.orientations = leg.orientations.map(|orientation| turn * orientation);
+        }
+        -over_m.truncate()
     }
 
     fn lower(&mut self, drop_m: f32) {

@@ -14,6 +14,8 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap};
 
+use crate::maths::angle::unit_vector;
+use crate::synthesis::pose::lean::balance::lean_in_curve_rad;
 use crate::synthesis::semi_procedural::foot_path::{FootPathPoint, foot_path};
 use crate::synthesis::semi_procedural::landing::Landing;
 
@@ -42,6 +44,9 @@ const STRAFE_TURN_END_RAD_S: f32 = 4.8;
 /// Greatest turn rate, rad/s: 170 °/s.
 const TURN_MAX_RAD_S: f32 = 3.0;
 
+/// Greatest lean of a body on an arc, rad (20°).
+const LEAN_MAX_RAD: f32 = 0.35;
+
 /// The base walk, taken apart.
 #[derive(Clone, Debug)]
 pub struct BaseWalk {
@@ -51,7 +56,9 @@ pub struct BaseWalk {
     pub(crate) parameters: Parameters,
     /// Phase map of m_sp.
     pub(crate) phase_map: PhaseMap,
-    /// Both feet at each stored phase.
+    /// Lean of m_sp to the left, rad; 0 where it walks straight on.
+    pub(crate) lean_rad: f32,
+    /// Both feet at each stored phase, under a body that does not lean.
     pub(crate) feet: Vec<[FootPathPoint; 2]>,
     /// Phases of [strike, toe-off] of each foot.
     pub(crate) contact_phases: [[f32; 2]; 2],
@@ -59,7 +66,7 @@ pub struct BaseWalk {
     pub(crate) landings: [Landing; 2],
     /// Phase after each mid-stance at which the hips are lowest.
     pub(crate) lowest_phase: f32,
-    /// Mean height of the hips, m.
+    /// Mean height of the hips of a body that does not lean, m.
     pub(crate) mean_hips_m: f32,
     /// Mean rotation of each joint over the cycle.
     pub(crate) mean_rotations: [Quat; JOINT_COUNT],
@@ -75,8 +82,16 @@ impl BaseWalk {
         let m_sp = &db.examples[example];
         let key_times_s = m_sp.key_times_s.filter(|_| m_sp.parameters.speed_mps > 0.0)?;
         let (rows, mean) = (db.posed_rows(example), db.rows.mean_pose(example));
+        let lean_rad = lean_rad(&m_sp.parameters);
+        let lean = unit_vector(lean_rad);
+        let mean_hips_m = mean.pelvis_m.z / lean.x;
         let [left, right] = [0, 1].map(|side| foot_path(m_sp, key_times_s, side, &rows));
-        let feet: Vec<[FootPathPoint; 2]> = left.into_iter().zip(right).map(|(left, right)| [left, right]).collect();
+        let upright = |foot: FootPathPoint| {
+            let position_m = foot.position_m + Vec3::Y * (mean_hips_m * lean.y);
+            FootPathPoint { position_m, ..foot }
+        };
+        let feet: Vec<[FootPathPoint; 2]> =
+            left.into_iter().zip(right).map(|(left, right)| [left, right].map(upright)).collect();
         let greatest = |value: fn(&[FootPathPoint; 2]) -> f32| feet.iter().map(value).fold(f32::NEG_INFINITY, f32::max);
         let [right_off, right_strike, left_off, left_strike] = key_times_s.map(|time_s| m_sp.phase_map.phase(time_s));
         let landings = [
@@ -87,7 +102,8 @@ impl BaseWalk {
             example,
             parameters: m_sp.parameters,
             phase_map: m_sp.phase_map,
-            mean_hips_m: mean.pelvis_m.z,
+            lean_rad,
+            mean_hips_m,
             contact_phases: [[left_strike, left_off], [right_strike, right_off]],
             landings,
             lowest_phase: 0.5 * (landings[0].after_mid_stance + landings[1].after_mid_stance),
@@ -122,4 +138,10 @@ impl BaseWalk {
     pub(crate) fn mid_stance(&self, side: usize) -> &FootPathPoint {
         &self.feet[if side == 0 { PHASE_COUNT / 2 } else { 0 }][side]
     }
+}
+
+/// Lean of m_sp to the left at some parameters, rad.
+pub(crate) fn lean_rad(parameters: &Parameters) -> f32 {
+    let forward = Parameters { strafe_mps: 0.0, ..*parameters };
+    lean_in_curve_rad(&forward).y.clamp(-LEAN_MAX_RAD, LEAN_MAX_RAD)
 }

@@ -25,8 +25,9 @@ use motiondb::quality::planted_feet::CycleFeet;
 use crate::maths::angle::{unit_vector, yaw};
 use crate::maths::arc::arc_frame;
 use crate::synthesis::blending::pose_weights::rows_at;
+use crate::synthesis::pose::lean::incline::{TRUNK_SHARE, incline};
 use crate::synthesis::pose::{FootPose, Posture, pelvis};
-use crate::synthesis::semi_procedural::base_walk::BaseWalk;
+use crate::synthesis::semi_procedural::base_walk::{BaseWalk, lean_rad};
 use crate::synthesis::semi_procedural::foot_path::FootPathPoint;
 use crate::synthesis::semi_procedural::landing::drop_share;
 
@@ -46,10 +47,6 @@ const AMPLITUDE_RANGE: [f32; 2] = [0.3, 1.3];
 const LANDING_DROP_FACTOR: f32 = 1.15;
 /// Softness of |ω_s| and |ω_t| near 0, m/s and rad/s: an edge would jerk the feet where a body changes sides.
 const SOFT_SIZE: f32 = 0.1;
-/// Gravity g, m/s²: a body on an arc leans by atan(v·ω/g).
-const GRAVITY_MPS2: f32 = 9.81;
-/// Tangent of the greatest lean, 20°.
-const LEAN_TANGENT_MAX: f32 = 0.365;
 
 /// m_sp at some parameters: all that the walk depends on besides its phase.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +55,9 @@ pub struct Deformation<'a> {
     parameters: Parameters,
     /// Amplitude of hips, trunk and arms, divided by that of m_sp.
     amplitude: f32,
-    /// Cosine and sine of the lean; the sine is positive to the left.
+    /// Lean to the left, rad.
+    lean_rad: f32,
+    /// Its cosine and sine.
     lean: Vec2,
     /// Outward yaw of each foot, rad: in a turn feet open and close rather than point inward.
     toe_out_rad: f32,
@@ -101,12 +100,14 @@ impl<'a> Deformation<'a> {
         let turn_apart_rad = base.carried_apart_s * soft_size(parameters.turn_rate_rad_s) / tempo.cadence;
         let strafe_apart_m = base.carried_apart_s * soft_size(parameters.strafe_mps) / tempo.cadence;
         let turn_apart_m = FOOT_LENGTH_M * unit_vector((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
+        let lean_rad = lean_rad(&parameters);
         let level = Self {
             tempo,
             parameters,
             amplitude: (travel_mps / (base.parameters.speed_mps * tempo.cadence))
                 .clamp(AMPLITUDE_RANGE[0], AMPLITUDE_RANGE[1]),
-            lean: lean(parameters),
+            lean_rad,
+            lean: unit_vector(lean_rad),
             toe_out_rad: TOE_OUT_SHARE * 0.5 * turn_apart_rad,
             landing_drop_m: 0.0,
             widening_m: (0.5 * (strafe_apart_m + turn_apart_m + ANKLE_GAP_M - base.track_m)).max(0.0),
@@ -126,7 +127,7 @@ impl<'a> Deformation<'a> {
 
     /// Displacement of the feet to the left under a leaning body, m.
     fn lean_offset_m(&self) -> f32 {
-        -self.tempo.base.mean_hips_m * self.lean.y / self.lean.x
+        -self.tempo.base.mean_hips_m * self.lean.y
     }
 
     /// Phase to time.
@@ -225,11 +226,12 @@ impl<'a> Deformation<'a> {
         }
     }
 
-    /// Leans the body about its hips, which stay over the root; the feet stand outward.
+    /// Leans the body about its hips, which stay over the root; the feet stand outward. m_sp leans by itself.
     fn lean_body(&self, pose: &mut Pose) {
-        let half = (self.lean + Vec2::X).normalize();
-        pose.rotations[0] = Quat::from_xyzw(-half.y, 0.0, 0.0, half.x) * pose.rotations[0];
-        pose.pelvis_m.z *= self.lean.x;
+        let base = self.tempo.base;
+        let beyond_rad = Vec2::new(0.0, self.lean_rad - base.lean_rad);
+        incline(pose, beyond_rad, TRUNK_SHARE * beyond_rad);
+        pose.pelvis_m.z *= self.lean.x / unit_vector(base.lean_rad).x;
     }
 
     /// A foot of m_sp, mixed of forward and reversed time.
@@ -328,10 +330,4 @@ fn twist_hips(pose: &mut Pose, travel: Vec2) {
 /// |x| without an edge at 0.
 fn soft_size(x: f32) -> f32 {
     x * x / libm::sqrtf(x * x + SOFT_SIZE * SOFT_SIZE)
-}
-
-/// Cosine and sine of the lean; the sine is positive to the left.
-fn lean(parameters: Parameters) -> Vec2 {
-    let tangent = parameters.speed_mps * parameters.turn_rate_rad_s / GRAVITY_MPS2;
-    Vec2::new(1.0, tangent.clamp(-LEAN_TANGENT_MAX, LEAN_TANGENT_MAX)).normalize()
 }

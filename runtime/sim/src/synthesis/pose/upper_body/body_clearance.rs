@@ -15,7 +15,7 @@ use motiondb::body::{Joint, Pose, Skeleton};
 use crate::maths::angle::rotation;
 use crate::planning::elbow_room::{ElbowRoom, RoomSide};
 use crate::synthesis::TimeStep;
-use crate::synthesis::pose::upper_body::lean::tilt_trunk;
+use crate::synthesis::pose::lean::incline::tilt_trunk;
 
 /// Greatest tilt of the trunk, rad (9°).
 const TILT_MAX_RAD: f32 = 0.16;

@@ -2,19 +2,17 @@
 //!
 //! Enters: a pose, and what each part follows. Leaves: the pose.
 //!
-//! `look_at` turns head and chest, `squeeze` the shoulders in narrow gaps, both as far as `yaw_limit` allows. `lean` tilts the
-//! trunk; `secondary_motion` moves head, forearms and hands. Last, after the legs, `body_clearance` keeps trunk and arms out
+//! `look_at` turns head and chest, `squeeze` the shoulders in narrow gaps, both as far as `yaw_limit` allows.
+//! `secondary_motion` moves head, forearms and hands. Last, after the legs, `body_clearance` keeps trunk and arms out
 //! of walls and other bodies.
 
 pub(crate) mod body_clearance;
-pub(crate) mod lean;
 pub(crate) mod look_at;
 pub(crate) mod secondary_motion;
 pub(crate) mod squeeze;
 pub(crate) mod yaw_limit;
 
 pub(crate) use body_clearance::BodyClearance;
-pub(crate) use lean::Lean;
 pub(crate) use look_at::LookAt;
 pub use secondary_motion::LackingMotion;
 pub(crate) use secondary_motion::SecondaryMotion;
