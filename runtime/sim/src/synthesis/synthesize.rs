@@ -63,7 +63,7 @@ impl Body {
         motion.traits.shape(&mut posture.pose, &context.mean_rotations);
         look_at.turn(&mut posture.pose, skeleton);
         squeeze.turn(&mut posture.pose, &context.mean_rotations, skeleton);
-        lean.lean(&mut posture);
+        lean.lean(&mut posture, skeleton);
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step));

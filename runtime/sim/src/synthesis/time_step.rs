@@ -33,8 +33,11 @@ const TRAVEL_RATE_HZ: f32 = 10.0;
 /// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
 /// then turns at 200 °/s, as in a glance.
 const LOOK_AT_RATE_HZ: f32 = 12.0;
-/// Rate of the filter by which the trunk leans with an acceleration (`lean`), 1/s: it lags by 0.1 s.
+/// Rate of the filter by which the trunk leans with an acceleration (`excess_lean`), 1/s: it lags by 0.1 s.
 const LEAN_RATE_HZ: f32 = 30.0;
+/// Rate of the filter by which the whole body leans in a curve (`excess_lean`), 1/s: four fifths of the lean are made in
+/// 0.45 s, a step, since the feet land outward.
+const BODY_LEAN_RATE_HZ: f32 = 10.0;
 /// Rate of the filter that shifts the weight before a first step (`weight_shift`), 1/s: within 0.3 s the pelvis makes
 /// four fifths of the shift.
 const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
@@ -87,6 +90,8 @@ pub struct TimeStep {
     pub(crate) look_at: Spring,
     /// Filter of the trunk's lean.
     pub(crate) lean: SoftSpring,
+    /// Filter of the lean of the whole body.
+    pub(crate) body_lean: SoftSpring,
     /// Filter of the turn of the shoulders.
     pub(crate) squeeze: SoftSpring,
     /// Filter of the turns that keep the upper body clear.
@@ -125,6 +130,7 @@ impl TimeStep {
             travel: spring(TRAVEL_RATE_HZ),
             look_at: spring(LOOK_AT_RATE_HZ),
             lean: soft_spring(LEAN_RATE_HZ),
+            body_lean: soft_spring(BODY_LEAN_RATE_HZ),
             squeeze: soft_spring(SQUEEZE_RATE_HZ),
             clearance: soft_spring(CLEARANCE_RATE_HZ),
             secondary: soft_spring(SECONDARY_RATE_HZ),

@@ -11,7 +11,9 @@ use motiondb::velocity_sets::velocity_hull::is_holding;
 use crate::synthesis::blending::cadence_curve::CadenceCurve;
 use crate::synthesis::blending::example_mix::ExampleMix;
 use crate::synthesis::blending::pose_landmarks::PoseLandmarks;
+use crate::synthesis::blending::pose_weights::PoseWeights;
 use crate::synthesis::pose::lean::balance::lean_in_curve_rad;
+use crate::synthesis::pose::upper_body::curve_look::curve_look_rad;
 
 /// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie straight beyond
 /// the query.
@@ -43,6 +45,8 @@ pub struct BlendDomain {
     parameters: Vec<Parameters>,
     /// Lean of each example by itself, forward and left, rad.
     leans_rad: Vec<Vec2>,
+    /// Look of the head of each example into its curve, rad.
+    curve_looks_rad: Vec<f32>,
     /// Whether each example stands.
     stands: Vec<bool>,
     /// Whether each example runs.
@@ -92,11 +96,15 @@ impl BlendDomain {
             parameters.iter().zip(&runs).filter(|entry| *entry.1).map(|entry| entry.0.velocity_mps().length());
         let run_min_mps = run_speeds_mps.fold(f32::INFINITY, f32::min);
         let stands: Vec<bool> = db.examples.iter().map(|example| example.key_times_s.is_none()).collect();
+        let curve_look_rad = |(example, point): (usize, &Parameters)| {
+            curve_look_rad(&db.rows.mean_pose(example), point.turn_rate_rad_s, &db.skeleton)
+        };
         let mut domain = Self {
             standing: Reachable::default(),
             cadence: CadenceCurve::new(|_| 1.0),
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
+            curve_looks_rad: parameters.iter().enumerate().map(curve_look_rad).collect(),
             leans_rad: parameters.iter().map(lean_in_curve_rad).collect(),
             stands,
             runs,
@@ -225,6 +233,11 @@ impl BlendDomain {
     /// Lean of a mix by itself, forward and left, rad.
     pub(crate) fn lean_rad(&self, mix: &ExampleMix) -> Vec2 {
         mix.entries().iter().map(|&(example, share)| share * self.leans_rad[example as usize]).sum()
+    }
+
+    /// Look of the head of a blended pose into the curves of its examples, rad.
+    pub(crate) fn curve_look_rad(&self, weights: &PoseWeights) -> f32 {
+        weights.entries().iter().map(|&(example, weight)| weight * self.curve_looks_rad[example as usize]).sum()
     }
 
     /// (v_f, ω_t, ω_s) of a root that moves by these shares.

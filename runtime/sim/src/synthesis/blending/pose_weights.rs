@@ -21,7 +21,7 @@ pub struct PoseWeights {
 
 impl PoseWeights {
     /// (example, weight).
-    fn entries(&self) -> &[(u32, f32)] {
+    pub(crate) fn entries(&self) -> &[(u32, f32)] {
         &self.entries[..self.count]
     }
 

@@ -10,6 +10,7 @@ use crate::synthesis::blending::PoseWeights;
 use crate::synthesis::hybrid::idle_clock::IdleClock;
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::pose::Posture;
+use crate::synthesis::pose::upper_body::curve_look::turn_ahead;
 use crate::synthesis::semi_procedural::Deformation;
 
 /// One synthesis at one phase.
@@ -44,11 +45,11 @@ impl ActiveMotion<'_> {
     pub(crate) fn posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
         let db = &context.db;
         match self {
-            Self::Blending { drawn, current, idle } => Posture::new(
-                drawn.pose_with_idle(db, phase, || idle.pose(db)),
-                current.contacts(db, phase),
-                &db.skeleton,
-            ),
+            Self::Blending { drawn, current, idle } => {
+                let mut pose = drawn.pose_with_idle(db, phase, || idle.pose(db));
+                turn_ahead(&mut pose, context.domain.curve_look_rad(drawn), &db.skeleton);
+                Posture::new(pose, current.contacts(db, phase), &db.skeleton)
+            }
             Self::SemiProcedural(deformation) => deformation.posture(db, phase),
             Self::Transition(played) => {
                 let frame = played.at(db, phase);

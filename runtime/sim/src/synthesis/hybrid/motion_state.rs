@@ -18,8 +18,7 @@ use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::hybrid::step_timing::{GaitTiming, StepTiming};
-use crate::synthesis::pose::lean::balance::balanced_lean_rad;
-use crate::synthesis::semi_procedural::base_walk;
+use crate::synthesis::pose::lean::balance::{balanced_lean_rad, lean_in_curve_rad};
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 use crate::synthesis::{Mode, SynthesisContext, TimeStep, Traits};
@@ -249,7 +248,7 @@ impl MotionState {
     /// Lean of the drawn motion by itself, forward and left, rad.
     pub(crate) fn played_lean_rad(&self, context: &SynthesisContext) -> Vec2 {
         match (self.mode, self.transition) {
-            (Mode::SemiProcedural, _) => Vec2::new(0.0, base_walk::lean_rad(&self.smoothed[0].parameters)),
+            (Mode::SemiProcedural, _) => lean_in_curve_rad(&self.smoothed[0].parameters),
             (_, Some(played)) => balanced_lean_rad(played.acceleration_mps2(&context.db)),
             _ => context.domain.lean_rad(&self.smoothed[0].mix),
         }

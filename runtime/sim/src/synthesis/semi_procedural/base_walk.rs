@@ -16,6 +16,7 @@ use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap};
 
 use crate::maths::angle::unit_vector;
 use crate::synthesis::pose::lean::balance::lean_in_curve_rad;
+use crate::synthesis::pose::upper_body::curve_look::curve_look_rad;
 use crate::synthesis::semi_procedural::foot_path::{FootPathPoint, foot_path};
 use crate::synthesis::semi_procedural::landing::Landing;
 
@@ -58,6 +59,8 @@ pub struct BaseWalk {
     pub(crate) phase_map: PhaseMap,
     /// Lean of m_sp to the left, rad; 0 where it walks straight on.
     pub(crate) lean_rad: f32,
+    /// Look of the head of m_sp into its curve, rad.
+    pub(crate) curve_look_rad: f32,
     /// Both feet at each stored phase, under a body that does not lean.
     pub(crate) feet: Vec<[FootPathPoint; 2]>,
     /// Phases of [strike, toe-off] of each foot.
@@ -103,6 +106,7 @@ impl BaseWalk {
             parameters: m_sp.parameters,
             phase_map: m_sp.phase_map,
             lean_rad,
+            curve_look_rad: curve_look_rad(&mean, m_sp.parameters.turn_rate_rad_s, &db.skeleton),
             mean_hips_m,
             contact_phases: [[left_strike, left_off], [right_strike, right_off]],
             landings,

@@ -26,6 +26,7 @@ use crate::maths::angle::{unit_vector, yaw};
 use crate::maths::arc::arc_frame;
 use crate::synthesis::blending::pose_weights::rows_at;
 use crate::synthesis::pose::lean::incline::{TRUNK_SHARE, incline};
+use crate::synthesis::pose::upper_body::curve_look::turn_ahead;
 use crate::synthesis::pose::{FootPose, Posture, pelvis};
 use crate::synthesis::semi_procedural::base_walk::{BaseWalk, lean_rad};
 use crate::synthesis::semi_procedural::foot_path::FootPathPoint;
@@ -188,6 +189,7 @@ impl<'a> Deformation<'a> {
         let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.tempo.base.example, row, weight)));
         self.scale_amplitude(&mut pose);
         twist_hips(&mut pose, self.tempo.travel);
+        turn_ahead(&mut pose, self.tempo.base.curve_look_rad, &db.skeleton);
         self.lean_body(&mut pose);
         pose.pelvis_m.z -= self.landing_drop_m * drop_share(2.0 * (phase - self.tempo.base.lowest_phase));
         let contacts = self.contacts(db, phase);

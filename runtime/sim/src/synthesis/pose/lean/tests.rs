@@ -42,10 +42,12 @@ fn leaning() -> MotionDb {
     let mut db = test_db();
     for example in 0..db.examples.len() {
         let drawn = db.examples[example].parameters;
-        let lean = ExcessLean { drawn, lean_rad: [lean_in_curve_rad(&drawn), Vec2::ZERO, Vec2::ZERO] };
+        let body_rad = lean_in_curve_rad(&drawn);
+        let [body_rad, trunk_rad] = [body_rad, 0.45 * body_rad].map(|tilt_rad| [tilt_rad, Vec2::ZERO, Vec2::ZERO]);
+        let lean = ExcessLean { drawn, body_rad, trunk_rad };
         for row in 0..PHASE_COUNT {
             let mut posture = Posture::new(db.rows.pose(example, row), [1.0; 2], &db.skeleton);
-            lean.lean(&mut posture);
+            lean.lean(&mut posture, &db.skeleton);
             posture.bend_legs(&db.skeleton);
             let at = example * PHASE_COUNT + row;
             db.rows.pelvis_m[at] = posture.pose.pelvis_m;
@@ -80,7 +82,7 @@ fn curve(speed_mps: f32, turn_rate_rad_s: f32) -> Parameters {
 #[test]
 fn examples_at_their_own_parameters_lean_no_further() {
     for example in test_db().examples {
-        let excess_rad = |body: &Body, _: Vec3| body.lean.lean_rad[0].length();
+        let excess_rad = |body: &Body, _: Vec3| body.lean.body_rad[0].length() + body.lean.trunk_rad[0].length();
         let excess_rad = steady(&test_db(), Modes::Blending, example.parameters, excess_rad);
         let greatest_rad = excess_rad.into_iter().fold(0.0, f32::max);
         assert!(greatest_rad < 1e-3, "{}: {greatest_rad} rad", example.name);
