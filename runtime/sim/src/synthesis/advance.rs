@@ -69,7 +69,7 @@ impl Body {
         }
         look_at.follow(&plan, root.facing_rad, step);
         let drawn = motion.drawn_parameters(&context.db);
-        lean.follow(drawn, motion.played_lean_rad(context), step);
+        lean.follow(drawn, motion.played_leans_rad(context), step);
         let walking = drawn.velocity_mps().length() / context.base_mps;
         squeeze.follow(plan.gap_m, context.shoulder_breadth_m, step);
         secondary.follow(motion.phase, advanced, walking, step);

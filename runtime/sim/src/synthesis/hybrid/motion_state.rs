@@ -245,12 +245,17 @@ impl MotionState {
         self.drawn_parameters(db).velocity_mps()
     }
 
-    /// Lean of the drawn motion by itself, forward and left, rad.
-    pub(crate) fn played_lean_rad(&self, context: &SynthesisContext) -> Vec2 {
+    /// Lean of the drawn motion by itself, forward and left, rad: of the whole body and, as a share of it, of the trunk.
+    /// The body of a recorded transition leans as in the clip, which steps where the body does.
+    pub(crate) fn played_leans_rad(&self, context: &SynthesisContext) -> [Vec2; 2] {
+        let [smoothed, _] = &self.smoothed;
         match (self.mode, self.transition) {
-            (Mode::SemiProcedural, _) => lean_in_curve_rad(&self.smoothed[0].parameters),
-            (_, Some(played)) => balanced_lean_rad(played.acceleration_mps2(&context.db)),
-            _ => context.domain.lean_rad(&self.smoothed[0].mix),
+            (Mode::SemiProcedural, _) => [lean_in_curve_rad(&smoothed.parameters); 2],
+            (_, Some(played)) => {
+                let in_curve_rad = lean_in_curve_rad(&smoothed.mix.parameters(&context.db));
+                [in_curve_rad, balanced_lean_rad(played.acceleration_mps2(&context.db))]
+            }
+            _ => [context.domain.lean_rad(&smoothed.mix); 2],
         }
     }
 

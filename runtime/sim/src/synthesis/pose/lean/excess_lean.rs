@@ -48,15 +48,17 @@ pub(crate) struct ExcessLean {
 }
 
 impl ExcessLean {
-    /// Follows the drawn motion over one step. The played motion leans by `played_rad`.
-    pub(crate) fn follow(&mut self, drawn: Parameters, played_rad: Vec2, step: &TimeStep) {
-        let excess_rad = |lean_rad: Vec2| (lean_rad - played_rad).clamp_length_max(LEAN_MAX_RAD);
+    /// Follows the drawn motion over one step. The played motion leans by itself: the whole body, and the trunk as a share
+    /// of the second lean.
+    pub(crate) fn follow(&mut self, drawn: Parameters, [body_rad, trunk_rad]: [Vec2; 2], step: &TimeStep) {
+        let excess_rad = |lean_rad: Vec2, played_rad: Vec2| (lean_rad - played_rad).clamp_length_max(LEAN_MAX_RAD);
         let velocity_mps = drawn.velocity_mps();
         let acceleration_mps2 =
             (velocity_mps - self.drawn.velocity_mps()) / step.dt_s + drawn.turn_rate_rad_s * velocity_mps.perp();
         self.drawn = drawn;
-        step.body_lean.approach(&mut self.body_rad, excess_rad(lean_in_curve_rad(&drawn)));
-        step.lean.approach(&mut self.trunk_rad, TRUNK_SHARE * excess_rad(balanced_lean_rad(acceleration_mps2)));
+        step.body_lean.approach(&mut self.body_rad, excess_rad(lean_in_curve_rad(&drawn), body_rad));
+        step.lean
+            .approach(&mut self.trunk_rad, TRUNK_SHARE * excess_rad(balanced_lean_rad(acceleration_mps2), trunk_rad));
     }
 
     /// Leans a posture. Its pelvis keeps its height above the straighter leg, as in a deformed walk.
@@ -91,7 +93,7 @@ mod tests {
     fn tilts_deg(seconds: f32, dt_s: f32, motion: impl Fn(f32) -> Parameters) -> Vec<[Vec2; 2]> {
         let (mut lean, step) = (ExcessLean::default(), TimeStep::new(dt_s));
         let mut tilt_deg = |index: usize| {
-            lean.follow(motion(index as f32 * dt_s), Vec2::ZERO, &step);
+            lean.follow(motion(index as f32 * dt_s), [Vec2::ZERO; 2], &step);
             [lean.body_rad[0], lean.trunk_rad[0]].map(|tilt_rad| tilt_rad * 1_f32.to_degrees())
         };
         (1..=(seconds / dt_s).round() as usize).map(&mut tilt_deg).collect()
