@@ -56,7 +56,10 @@ impl ExcessLean {
         let acceleration_mps2 =
             (velocity_mps - self.drawn.velocity_mps()) / step.dt_s + drawn.turn_rate_rad_s * velocity_mps.perp();
         self.drawn = drawn;
-        step.body_lean.approach(&mut self.body_rad, excess_rad(lean_in_curve_rad(&drawn), body_rad));
+        let body_rad = excess_rad(lean_in_curve_rad(&drawn), body_rad);
+        if body_rad != Vec2::ZERO || self.body_rad != [Vec2::ZERO; 3] {
+            step.body_lean.approach(&mut self.body_rad, body_rad);
+        }
         step.lean
             .approach(&mut self.trunk_rad, TRUNK_SHARE * excess_rad(balanced_lean_rad(acceleration_mps2), trunk_rad));
     }
