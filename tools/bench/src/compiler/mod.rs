@@ -2,8 +2,8 @@
 //!
 //! Enters: folders of clips, or the bundled ones. Leaves: differences from published measurements ([`import`], with
 //! [`ground_truth`] and [`reading_speed`]; [`gait`]); durations and bytes ([`compile`]); how well an example can be
-//! blended from the others ([`leave_one_out`], and at best [`least_blend`]); whether bundled clips have the speeds in their names and resemble real
-//! clips ([`clips`], with [`gait_figures`] and [`similarity`]).
+//! blended from the others ([`leave_one_out`], and how well at best: `least_blend`); whether bundled clips have the speeds
+//! in their names and resemble real clips ([`clips`], with [`gait_figures`] and [`similarity`]).
 
 pub mod clips;
 pub mod compile;

@@ -7,11 +7,11 @@
 //!
 //! An agent that faces v_pref while it walks in another direction side-steps, so the first line also requires that the
 //! holding set, at that facing, holds v_i: a body that the database cannot move so turns. Stepping back is our mirror
-//! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit; the faster it
-//! moves, the nearer to v_i it faces, since in crowds speeds waver. Both times are contiguous and start again only after
-//! a rest at aligned facing; without that rule the facing would flicker.
-//! Where v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or behind turns on the
-//! spot.
+//! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit. Out of time,
+//! an agent faces the nearer to v_i the faster it moves: with one limit of speed the facing would jump whenever the speed
+//! crosses it. Both times are contiguous and start again only after a rest at aligned facing; without that rule the
+//! facing would flicker. Where v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or
+//! behind turns on the spot.
 //!
 //! World axes, m/s, seconds.
 
@@ -71,7 +71,7 @@ pub(crate) struct Orientation {
 /// 2. v_i = 0: keep the facing, or turn to v_pref on the spot;
 /// 3. v_i along v_pref: face v_pref, or v_i until rested;
 /// 4. side-step or step back in time: hold the facing of v_pref;
-/// 5. otherwise: face v_i, or between v_pref and v_i while it hardly walks.
+/// 5. otherwise: face v_i; between shuffling and walking, a direction between v_pref and v_i.
 pub(crate) fn decide(
     input: &OrientationInput,
     holds: impl FnOnce(Vec2) -> bool,
@@ -99,17 +99,17 @@ pub(crate) fn decide(
     } else {
         input.strafing_s < params.strafing_limit_s
     };
-    let walking_share = if in_time { 0.0 } else { walking_share(input.velocity_mps.length()) };
-    if walking_share == 1.0 || !holds(preferred) {
+    let turned = if in_time { 0.0 } else { walking_share(input.velocity_mps.length()) };
+    if turned == 1.0 || !holds(preferred) {
         turn(input, planned, params) // case 5
-    } else if walking_share == 0.0 {
+    } else if turned == 0.0 {
         hold(input, preferred, steps_back, dt_s) // case 4
     } else {
-        turn(input, preferred.lerp(planned, walking_share).normalize_or(planned), params) // case 5
+        turn(input, preferred.lerp(planned, turned).normalize_or(planned), params) // case 5
     }
 }
 
-/// How much an agent walks rather than shuffles: 0 to 1.
+/// How much an agent walks rather than shuffles, from 0 to 1.
 fn walking_share(speed_mps: f32) -> f32 {
     ((speed_mps - SHUFFLING_MPS) / (WALKING_MPS - SHUFFLING_MPS)).clamp(0.0, 1.0)
 }
@@ -147,7 +147,7 @@ fn hold(input: &OrientationInput, preferred: Vec2, steps_back: bool, dt_s: f32) 
     }
 }
 
-/// Case 5: the facing follows v_i, and keeps following: both times count as spent until a rest.
+/// Case 5: the agent turns to a facing, and keeps turning: both times count as spent until a rest.
 fn turn(input: &OrientationInput, facing: Vec2, params: &McnParams) -> Orientation {
     Orientation {
         facing,

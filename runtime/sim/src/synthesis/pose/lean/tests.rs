@@ -11,6 +11,7 @@ use crate::planning::plan::Plan;
 use crate::synthesis::command::plan_requesting;
 use crate::synthesis::pose::lean::ExcessLean;
 use crate::synthesis::pose::lean::balance::lean_in_curve_rad;
+use crate::synthesis::pose::lean::incline::TRUNK_SHARE;
 use crate::synthesis::pose::posture::Posture;
 use crate::synthesis::{Body, HmsParams, Modes, SynthesisContext};
 use crate::test_db::test_db;
@@ -43,7 +44,8 @@ fn leaning() -> MotionDb {
     for example in 0..db.examples.len() {
         let drawn = db.examples[example].parameters;
         let body_rad = lean_in_curve_rad(&drawn);
-        let [body_rad, trunk_rad] = [body_rad, 0.45 * body_rad].map(|tilt_rad| [tilt_rad, Vec2::ZERO, Vec2::ZERO]);
+        let [body_rad, trunk_rad] =
+            [body_rad, TRUNK_SHARE * body_rad].map(|tilt_rad| [tilt_rad, Vec2::ZERO, Vec2::ZERO]);
         let lean = ExcessLean { drawn, body_rad, trunk_rad };
         for row in 0..PHASE_COUNT {
             let mut posture = Posture::new(db.rows.pose(example, row), [1.0; 2], &db.skeleton);
