@@ -89,6 +89,15 @@ fn wide_turns_and_gaps_are_measured() {
 }
 
 #[test]
+fn a_turn_that_drifts_aside_is_a_turn() {
+    // The fastest of the set is m_sp, and drifts by 0.05 m/s to the side on which it does not turn faster.
+    let found = coverage(&set(&[[1.6, 0.25, 0.05], [1.6, 1.2, 0.0], [1.6, -1.2, -0.1]], 0, &[0]));
+    assert_eq!(sentences(&found, GapKind::WalkingTurns), [""; 0]);
+    let orbits = coverage(&set(&[[1.6, 0.25, 0.05], [1.6, 1.2, 0.9], [1.6, -1.2, -0.9]], 0, &[0]));
+    assert_eq!(sentences(&orbits, GapKind::WalkingTurns).len(), 2);
+}
+
+#[test]
 fn a_gap_of_one_side_names_that_side() {
     // A pyramid: it turns tightly, spins and side-steps to the left, and does none of these to the right.
     let points = [[1.2, 0.0, 0.0], [0.0, 2.0, 0.0], [2.2, 2.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 0.0], [2.2, 0.0, 0.0]];

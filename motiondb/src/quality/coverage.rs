@@ -7,11 +7,10 @@
 
 use serde::Serialize;
 
-use crate::blend_space::locator::Locator;
 use crate::body::skeleton::Side;
 use crate::motion::motion_db::MotionDb;
 use crate::motion::parameters::Parameters;
-use crate::velocity_sets::velocity_hull::{goes_straight, is_holding};
+use crate::velocity_sets::velocity_hull::{faces_its_way, goes_straight, is_holding};
 
 /// Least speed of a motion that leaves its position, m/s; the compiler mirrors examples from this side speed on.
 const MOVES_MPS: f32 = 0.15;
@@ -29,8 +28,6 @@ const SPEED_GAP_MPS: f32 = 0.75;
 const TURN_GAP_RAD_S: f32 = 60.0 * std::f32::consts::PI / 180.0;
 /// Least turn rate that is a turn, rad/s: 3 °/s; below is gait noise.
 const TURNS_RAD_S: f32 = 3.0 * std::f32::consts::PI / 180.0;
-/// Number of bisections that find the fastest turn, to a millionth of the range.
-const HALVINGS: u32 = 20;
 
 /// Kinds of coverage gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -122,16 +119,15 @@ fn walking_turn_gaps(db: &MotionDb) -> Vec<CoverageGap> {
     let Some(walk) = m_sp.or_else(|| db.examples.iter().position(|example| example.key_times_s.is_some())) else {
         return Vec::new();
     };
-    let walk = db.examples[walk].parameters;
-    let locator = db.locator();
-    let [left, right] = Side::BOTH.map(|side| fastest_turn_rad_s(db, &locator, walk, side));
+    let walk_mps = db.examples[walk].parameters.speed_mps;
+    let [left, right] = Side::BOTH.map(|side| fastest_turn_rad_s(db, walk_mps, side));
     let are_alike = (left - right).abs() <= 0.1 * left.max(right);
     let sides =
         if are_alike { vec![(left.min(right), "either side")] } else { vec![(left, "the left"), (right, "the right")] };
-    let is_wide = |rate_rad_s: f32| rate_rad_s * TURN_RADIUS_MAX_M < walk.speed_mps.abs();
+    let is_wide = |rate_rad_s: f32| rate_rad_s * TURN_RADIUS_MAX_M < walk_mps.abs();
     let gap = |(rate_rad_s, side): (f32, &str)| CoverageGap {
         kind: GapKind::WalkingTurns,
-        sentence: walking_turn_sentence(walk.speed_mps, rate_rad_s, side),
+        sentence: walking_turn_sentence(walk_mps, rate_rad_s, side),
     };
     sides.into_iter().filter(|(rate, _)| is_wide(*rate)).map(gap).collect()
 }
@@ -145,19 +141,17 @@ fn walking_turn_sentence(speed_mps: f32, rate_rad_s: f32, side: &str) -> String 
     format!("{at} the fastest turn to {side} is {rate_deg_s:.0} °/s: it needs a radius of {radius_m:.1} m.")
 }
 
-/// Greatest turn rate to one side that the hull holds at the walk's speeds, rad/s. By bisection, since the hull is
-/// convex.
-fn fastest_turn_rad_s(db: &MotionDb, locator: &Locator, walk: Parameters, side: Side) -> f32 {
-    let turned = |rate_rad_s: f32| Parameters { turn_rate_rad_s: side.sign() * rate_rad_s, ..walk };
-    let own_rad_s = side.sign() * walk.turn_rate_rad_s;
-    let greatest_rad_s = db.parameters().map(|found| side.sign() * found.turn_rate_rad_s).fold(own_rad_s, f32::max);
-    let (mut inside, mut outside) = (own_rad_s, greatest_rad_s);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (inside + outside);
-        let end = if locator.locate_inside(turned(middle)).is_some() { &mut inside } else { &mut outside };
-        *end = middle;
-    }
-    inside.max(0.0)
+/// Greatest turn rate to one side at a speed, rad/s, on the hull of all (v_f, ω_t) that face their way: an edge that
+/// joins an example of at most this speed to one of at least this speed.
+fn fastest_turn_rad_s(db: &MotionDb, speed_mps: f32, side: Side) -> f32 {
+    let ahead: Vec<Parameters> = db.parameters().filter(faces_its_way).collect();
+    let slower = ahead.iter().filter(|found| found.speed_mps <= speed_mps);
+    let faster = || ahead.iter().filter(|found| found.speed_mps >= speed_mps);
+    let between = |slow: &Parameters, fast: &Parameters| {
+        let share = (speed_mps - slow.speed_mps) / (fast.speed_mps - slow.speed_mps).max(f32::MIN_POSITIVE);
+        side.sign() * (slow.turn_rate_rad_s + share * (fast.turn_rate_rad_s - slow.turn_rate_rad_s))
+    };
+    slower.flat_map(|slow| faster().map(|fast| between(slow, fast))).fold(0.0, f32::max)
 }
 
 fn turns_in_place(found: &Parameters, side: Side) -> bool {
