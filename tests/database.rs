@@ -153,7 +153,7 @@ fn corners_of_the_hull_are_not_left_out() {
 
 #[test]
 fn a_simulation_completes_a_set() {
-    let folder = folder("deformed_once");
+    let folder = folder("completed");
     let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
     let given = Arc::new(database_file::read(&database).unwrap().0);
     let complete = library::augmented(Arc::clone(&given));

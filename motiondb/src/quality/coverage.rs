@@ -141,8 +141,8 @@ fn walking_turn_sentence(speed_mps: f32, rate_rad_s: f32, side: &str) -> String 
     format!("{at} the fastest turn to {side} is {rate_deg_s:.0} °/s: it needs a radius of {radius_m:.1} m.")
 }
 
-/// Greatest turn rate to one side at a speed, rad/s, on the hull of all (v_f, ω_t) that face their way: an edge that
-/// joins an example of at most this speed to one of at least this speed.
+/// Greatest turn rate to one side at a speed, rad/s, of blends of examples that face their way. It lies on an edge of
+/// the hull of their (v_f, ω_t): between an example of at most this speed and one of at least this speed.
 fn fastest_turn_rad_s(db: &MotionDb, speed_mps: f32, side: Side) -> f32 {
     let ahead: Vec<Parameters> = db.parameters().filter(faces_its_way).collect();
     let slower = ahead.iter().filter(|found| found.speed_mps <= speed_mps);
