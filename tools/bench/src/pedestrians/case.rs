@@ -27,6 +27,10 @@ pub(crate) struct CrowdCase {
 /// Greatest overlap of two discs, or of a disc and a wall, that touch: rounding of positions, m.
 pub(crate) const TOUCH_M: f64 = 1e-3;
 
+/// Deepest overlap of two discs with a radius of 0.25 m, m: 0.25 m between two roots, the depth of a man's chest
+/// (Pheasant 1986: 0.215 to 0.285 m).
+pub(crate) const OVERLAP_MAX_M: f64 = 0.25;
+
 /// A measure of a test.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct CaseFigure {
