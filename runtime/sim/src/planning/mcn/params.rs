@@ -31,6 +31,8 @@ pub struct McnParts {
     pub keep_right: bool,
     /// Whether agents that queue hold their place.
     pub queueing: bool,
+    /// Whether agents that stand in contact, and want to go different ways, press on.
+    pub pressing: bool,
 }
 
 /// How the stance foot limits the velocity (§4.2).
@@ -58,6 +60,7 @@ impl Default for McnParts {
             back_pedalling: true,
             keep_right: true,
             queueing: true,
+            pressing: true,
         }
     }
 }

@@ -269,6 +269,21 @@ fn an_agent_holds_its_place_in_a_queue_alone() {
     assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
 }
 
+/// An agent that stands; the next one stands in contact ahead, and goes in a direction.
+fn in_contact(way: Vec2) -> Scene {
+    let mut scene = Scene::new(&[[0.0, 0.0], [0.5, 0.0]]);
+    scene.velocities_mps = vec![Vec2::ZERO; 2];
+    scene.preferred_mps[1] = way;
+    scene
+}
+
+#[test]
+fn an_agent_at_rest_presses_on_except_in_a_queue() {
+    check_switch(&in_contact(WALK.perp()), &in_contact(WALK), |parts| parts.pressing = false);
+    let [across, alike] = [WALK.perp(), WALK].map(|way| in_contact(way).plan().velocity_mps.x);
+    assert!(across > alike + 0.05, "{across} {alike}");
+}
+
 #[test]
 fn the_density_filter_matters_in_a_crowd() {
     check_switch(&dense(), &encounter(), |parts| parts.density_filter = false);
@@ -300,7 +315,7 @@ fn stance_shape_matters_on_one_foot() {
 }
 
 /// Four agents close in on the first, one of them fast.
-fn pressed() -> Scene {
+fn closed_in() -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.52, 0.1], [-0.5, 0.2], [0.1, -0.55], [0.0, 1.2]]);
     let closing = [[0.0, 0.0], [-0.8, 0.0], [0.9, 0.0], [0.0, 0.8], [0.0, -1.3]];
     scene.velocities_mps = closing.map(Vec2::from).to_vec();
@@ -326,7 +341,7 @@ fn without_keeping_right_a_mirrored_scene_mirrors_the_plan() {
         let [original, mirrored] = [scene, &mirrored(scene)].map(|scene| scene.plan().velocity_mps);
         (original * Vec2::new(1.0, -1.0)).distance(mirrored)
     };
-    for mut scene in [encounter(), dense(), pressed()] {
+    for mut scene in [encounter(), dense(), closed_in()] {
         scene.params.planner.parts.keep_right = false;
         assert!(off_mps(&scene) < 1e-4, "{}", off_mps(&scene));
     }
@@ -335,7 +350,7 @@ fn without_keeping_right_a_mirrored_scene_mirrors_the_plan() {
 
 #[test]
 fn the_order_matters_where_half_planes_yield() {
-    check_switch(&pressed(), &encounter(), |parts| parts.order = false);
+    check_switch(&closed_in(), &encounter(), |parts| parts.order = false);
 }
 
 #[test]
@@ -363,8 +378,9 @@ fn without_its_parts_mcn_is_orca() {
         back_pedalling: false,
         keep_right: false,
         queueing: false,
+        pressing: false,
     };
-    for mut scene in [encounter(), dense(), pressed()] {
+    for mut scene in [encounter(), dense(), closed_in()] {
         scene.velocities_mps[1..].iter_mut().for_each(|velocity_mps| *velocity_mps *= 1.2);
         scene.params.planner.parts = parts.clone();
         scene.params.orca.time_horizon_s = scene.params.planner.time_horizon_s;
