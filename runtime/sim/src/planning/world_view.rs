@@ -177,8 +177,7 @@ impl<'a> WorldView<'a> {
         let gain_mps = |of: usize| self.preferred_mps[of] - self.velocities_mps[of];
         let own_gain_mps = precedence.max(0.0) * gain_mps(agent);
         let other_gain_mps = (-precedence).max(0.0) * gain_mps(neighbour.agent as usize);
-        let relative_mps = neighbour.relative_mps + own_gain_mps - other_gain_mps;
-        (own_mps + own_gain_mps, Neighbour { relative_mps, ..*neighbour })
+        (own_mps + own_gain_mps, neighbour.with_gains(own_gain_mps, other_gain_mps))
     }
 
     /// The disc of an agent that other agents see.
@@ -201,6 +200,11 @@ impl<'a> WorldView<'a> {
     /// within a fine step they would take up almost nothing, and a body that stands would never start to step.
     pub fn lead_s(&self, response_s: f32) -> f32 {
         if self.bodies { response_s.max(self.dt_s) } else { self.dt_s }
+    }
+
+    /// Unit vector along an agent's preferred velocity; zero where that is zero.
+    pub(crate) fn preferred_direction(&self, agent: usize) -> Vec2 {
+        self.preferred_mps[agent].normalize_or_zero()
     }
 
     /// Unit vector along an agent's facing.

@@ -27,7 +27,7 @@ pub(crate) struct CrowdCase {
 /// Greatest overlap of two discs, or of a disc and a wall, that touch: rounding of positions, m.
 pub(crate) const TOUCH_M: f64 = 1e-3;
 
-/// Deepest overlap of two discs with a radius of 0.25 m, m: 0.25 m between two roots, the depth of a man's chest
+/// Greatest overlap that two discs of 0.25 m radius may have, m. It keeps their roots as far apart as a man's chest is deep
 /// (Pheasant 1986: 0.215 to 0.285 m).
 pub(crate) const OVERLAP_MAX_M: f64 = 0.25;
 

@@ -11,13 +11,14 @@ const MIDDLE_M: f32 = 9.0;
 const ROOMS_A_SIDE: usize = 6;
 /// Test 10: rooms on each side that are assigned to the main exit.
 const ROOMS_TO_MAIN: usize = 4;
-/// Test 11: least number of agents that are "some": one in twenty.
-const SOME: f64 = 50.0;
+/// Test 11: least number of agents that take the other exit (RiMEA: "some"): one in twenty.
+const OTHER_EXIT_MIN: f64 = 50.0;
 
 /// RiMEA 9; the runs are those with four doors and with two.
 pub(crate) fn fewer_exits(runs: &[ScenarioRun]) -> CaseOutcome {
     let [four_s, two_s] = [&runs[0], &runs[1]].map(all_out_s);
     let ratio = two_s.zip(four_s).map(|(two_s, four_s)| two_s / four_s);
+    let deepest_m = runs.iter().filter_map(overlap_m).reduce(f64::max);
     let half_s = |run: &ScenarioRun| egress(run)?.percentile_50_s;
     CaseOutcome {
         figures: vec![
@@ -30,7 +31,7 @@ pub(crate) fn fewer_exits(runs: &[ScenarioRun]) -> CaseOutcome {
             Criterion::at_least("RiMEA 9: agents out by four doors", 1000.0, runs[0].measures.removed as f64),
             Criterion::at_least("RiMEA 9: agents out by two doors", 1000.0, runs[1].measures.removed as f64),
             Criterion::at_least("RiMEA 9: time of two doors over that of four", 1.0, ratio),
-            Criterion::at_most("RiMEA 9: deepest overlap of discs, m", OVERLAP_MAX_M, overlap_m(&runs[1])),
+            Criterion::at_most("RiMEA 9: deepest overlap of discs, m", OVERLAP_MAX_M, deepest_m),
         ],
     }
 }
@@ -67,7 +68,7 @@ pub(crate) fn exit_choice(runs: &[ScenarioRun]) -> CaseOutcome {
         criteria: vec![
             Criterion::at_least("RiMEA 11: agents out", 1000.0, run.measures.removed as f64),
             Criterion::at_least("RiMEA 11: agents by the nearer exit", 501.0, nearer),
-            Criterion::at_least("RiMEA 11: agents by the other exit", SOME, other),
+            Criterion::at_least("RiMEA 11: agents by the other exit", OTHER_EXIT_MIN, other),
         ],
     }
 }

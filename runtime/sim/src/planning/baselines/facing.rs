@@ -12,7 +12,7 @@ use crate::planning::world_view::WorldView;
 pub(crate) fn facing_along(velocity_mps: Vec2, world: &WorldView, agent: usize, surroundings: &Surroundings) -> Plan {
     let facing_rad =
         if stands(velocity_mps) { world.facings_rad[agent] } else { libm::atan2f(velocity_mps.y, velocity_mps.x) };
-    let ahead = world.preferred_mps[agent].normalize_or_zero();
+    let ahead = world.preferred_direction(agent);
     Plan {
         velocity_mps,
         facing_rad,

@@ -6,7 +6,7 @@ use glam::Vec2;
 
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::McnParams;
-use crate::planning::mcn::pressing::pressed;
+use crate::planning::mcn::pressing::with_pressing;
 use crate::planning::mcn::queueing::queue_half_plane;
 use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane, shares};
 use crate::planning::orca::half_plane::HalfPlane;
@@ -51,7 +51,7 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
         let share = share.clamp(0.0, 1.0);
         let (own_mps, neighbour) = world.with_right_of_way(agent, neighbour);
         let (own_mps, neighbour) =
-            if params.parts.pressing { pressed(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
+            if params.parts.pressing { with_pressing(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));

@@ -31,7 +31,7 @@ pub struct McnParts {
     pub keep_right: bool,
     /// Whether agents that queue hold their place.
     pub queueing: bool,
-    /// Whether agents that stand in contact, and want to go different ways, press on.
+    /// Whether agents that stand in contact, and want to go in different directions, press on.
     pub pressing: bool,
 }
 

@@ -1,18 +1,20 @@
-//! Pressing: agents that stand in contact, and want to go different ways, press on. `FbCrowd` does not have it.
+//! Pressing: agents that stand in contact, and want to go in different directions, press on. `FbCrowd` does not have it.
 //!
-//! By equal shares, two agents in contact approach each other no faster than by the mean of their velocities along the
-//! line of their centres. Where both stand, this mean is zero and stays zero, so three agents that form an arch before a
-//! door would stand for ever. So an agent at rest counts as if it had already gained a part of what it lacks of v_pref.
-//! Of two agents that press, the one whose way lies more nearly along the line goes, and the other gives way.
+//! By equal shares, each of two agents in contact moves towards the other no faster than the mean of both velocities
+//! along the line of their centres. Where both stand, this mean is zero and stays zero, so three agents that form an
+//! arch before a door would stand for ever. So an agent at rest counts as if it had already gained a part of what it
+//! lacks of v_pref. The mean then moves towards the agent that gains less along the line, and this agent gives way.
 //!
-//! With the directions e of the preferred velocities, the share r_i of rest, which falls from 1 to 0 at the speed V, and
-//! the share n of nearness, which falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
+//! With the velocity v_i of agent i after its right of way, the direction e_i of its preferred velocity (zero where it
+//! prefers to stand), a factor r_i of rest, which falls from 1 to 0 at the speed V, and a factor n of nearness, which
+//! falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
 //!
 //! ```text
 //! n · r_i · min(1, |e_i - e_j|²) · (v_pref_i - v_i),  the last factor limited to P.
 //! ```
 //!
-//! Agents that queue go the same way, and do not press: in a full hall their pressure would add up (docs/tuning.md).
+//! Agents that queue prefer the same direction, and do not press: in a full hall their pressure would add up. Agents
+//! that prefer to stand are pressed, so that others get past them (docs/tuning.md).
 //!
 //! World axes, metres, m/s.
 
@@ -29,20 +31,24 @@ const MOVING_MPS: f32 = 0.3;
 const GAP_MAX_M: f32 = 0.1;
 
 /// An agent's velocity, and one of its neighbours, with what both gain by pressing.
-pub(crate) fn pressed(world: &WorldView, agent: usize, own_mps: Vec2, neighbour: &Neighbour) -> (Vec2, Neighbour) {
+pub(crate) fn with_pressing(
+    world: &WorldView,
+    agent: usize,
+    own_mps: Vec2,
+    neighbour: &Neighbour,
+) -> (Vec2, Neighbour) {
     let nearness = 1.0 - (neighbour.distance_m - neighbour.radius_m).max(0.0) / GAP_MAX_M;
     if nearness <= 0.0 {
         return (own_mps, *neighbour);
     }
     let other = neighbour.agent as usize;
-    let way = |agent: usize| world.preferred_mps[agent].normalize_or_zero();
-    let strength = nearness * way(agent).distance_squared(way(other)).min(1.0);
+    let [own_direction, other_direction] = [agent, other].map(|agent| world.preferred_direction(agent));
+    let strength = nearness * own_direction.distance_squared(other_direction).min(1.0);
     let gain_mps = |agent: usize, velocity_mps: Vec2| {
         let rest = (1.0 - velocity_mps.length() / MOVING_MPS).max(0.0);
         strength * rest * (world.preferred_mps[agent] - velocity_mps).clamp_length_max(GAIN_MAX_MPS)
     };
     let own_gain_mps = gain_mps(agent, own_mps);
     let other_gain_mps = gain_mps(other, own_mps - neighbour.relative_mps);
-    let relative_mps = neighbour.relative_mps + own_gain_mps - other_gain_mps;
-    (own_mps + own_gain_mps, Neighbour { relative_mps, ..*neighbour })
+    (own_mps + own_gain_mps, neighbour.with_gains(own_gain_mps, other_gain_mps))
 }

@@ -34,16 +34,15 @@ pub(crate) fn queue_half_plane(
     neighbours: &[Neighbour],
     urgencies: &Lanes,
 ) -> Option<HalfPlane> {
-    let way = |agent: usize| world.preferred_mps[agent].normalize_or_zero();
-    let own_way = way(agent);
+    let own_direction = world.preferred_direction(agent);
     let (mut alike, mut all) = (0.0, 0.0_f32);
     for (neighbour, urgency) in neighbours.iter().zip(urgencies) {
-        let ahead = urgency * own_way.dot(neighbour.offset_m.normalize_or_zero()).max(0.0);
-        alike += ahead * own_way.dot(way(neighbour.agent as usize));
+        let ahead = urgency * own_direction.dot(neighbour.offset_m.normalize_or_zero()).max(0.0);
+        alike += ahead * own_direction.dot(world.preferred_direction(neighbour.agent as usize));
         all += ahead;
     }
     let share = if all > 0.0 { (alike / all).max(0.0) } else { 0.0 };
     let weight = WEIGHT * share * share;
-    let half_plane = HalfPlane::behind(Vec2::ZERO, -own_way, HalfPlaneSource::Queue);
+    let half_plane = HalfPlane::behind(Vec2::ZERO, -own_direction, HalfPlaneSource::Queue);
     (weight > WEIGHT_MIN).then_some(HalfPlane { weight, ..half_plane })
 }

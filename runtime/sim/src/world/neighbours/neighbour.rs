@@ -27,6 +27,13 @@ pub struct Neighbour {
     pub time_to_collision_s: f32,
 }
 
+impl Neighbour {
+    /// The neighbour, where both agents count as if they had gained velocities, m/s. The time to collision stays.
+    pub(crate) fn with_gains(&self, own_gain_mps: Vec2, other_gain_mps: Vec2) -> Self {
+        Self { relative_mps: self.relative_mps + own_gain_mps - other_gain_mps, ..*self }
+    }
+}
+
 /// The agent that searches.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourQuery {
