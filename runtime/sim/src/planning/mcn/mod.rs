@@ -6,8 +6,7 @@
 //! Read `navigate`, the pipeline in the order of the paper; then its stages:
 //!
 //! 1. `adaptation` (§4.3): v_pref → v_op, by `keep_right`, the forces of `power_law` and the `density_filter`;
-//! 2. the half-planes of `avoidance` (§4.4), with `pressing`, and of `queueing`, `stance_half_plane` (§4.2) and
-//!    `motion_constraints` (§4.1);
+//! 2. the half-planes of `avoidance` (§4.4), `stance_half_plane` (§4.2) and `motion_constraints` (§4.1);
 //! 3. `orientation` (§4.5), and `gradual_turn`, which plans it little by little.
 //!
 //! `params` holds the tunables and the switches of the parts, `memory` what is kept from plan to plan.
@@ -23,8 +22,6 @@ pub(crate) mod navigate;
 pub(crate) mod orientation;
 pub(crate) mod params;
 pub(crate) mod power_law;
-pub(crate) mod pressing;
-pub(crate) mod queueing;
 pub(crate) mod stance_half_plane;
 #[cfg(test)]
 mod tests;

@@ -269,18 +269,18 @@ fn an_agent_holds_its_place_in_a_queue_alone() {
     assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
 }
 
-/// An agent that stands; the next one stands in contact ahead, and goes in a direction.
-fn in_contact(way: Vec2) -> Scene {
+/// An agent that stands; the next one stands in contact ahead, and prefers a velocity.
+fn in_contact(preferred_mps: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.5, 0.0]]);
     scene.velocities_mps = vec![Vec2::ZERO; 2];
-    scene.preferred_mps[1] = way;
+    scene.preferred_mps[1] = preferred_mps;
     scene
 }
 
 #[test]
 fn an_agent_at_rest_presses_on_except_in_a_queue() {
     check_switch(&in_contact(WALK.perp()), &in_contact(WALK), |parts| parts.pressing = false);
-    let [across, alike] = [WALK.perp(), WALK].map(|way| in_contact(way).plan().velocity_mps.x);
+    let [across, alike] = [WALK.perp(), WALK].map(|preferred_mps| in_contact(preferred_mps).plan().velocity_mps.x);
     assert!(across > alike + 0.05, "{across} {alike}");
 }
 

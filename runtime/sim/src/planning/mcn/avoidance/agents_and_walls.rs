@@ -4,10 +4,10 @@
 
 use glam::Vec2;
 
+use crate::planning::mcn::avoidance::pressing::with_pressing;
+use crate::planning::mcn::avoidance::queueing::queue_half_plane;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::McnParams;
-use crate::planning::mcn::pressing::with_pressing;
-use crate::planning::mcn::queueing::queue_half_plane;
 use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane, shares};
 use crate::planning::orca::half_plane::HalfPlane;
 use crate::planning::orca::wall_half_planes::wall_half_planes;

@@ -1,0 +1,12 @@
+//! Avoidance: the half-planes that keep an agent off walls and other agents (`FbCrowd` §4.4).
+//!
+//! Enters: the world view, and the surroundings of one agent. Leaves: half-planes with weights, in its memory.
+//!
+//! Read `agents_and_walls`, Eq. 12; then what the paper lacks: `pressing` (agents in contact dissolve an arch) and
+//! `queueing` (agents that wait hold their place).
+
+mod agents_and_walls;
+mod pressing;
+mod queueing;
+
+pub(crate) use agents_and_walls::avoid;
