@@ -13,7 +13,7 @@ use std::f32::consts::{PI, TAU};
 
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{CrowdPlanningMemory, Stance, plan_all, ranking_horizon_s};
-use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_mps};
+use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_motion};
 use fbcrowd_sim::scenario::WALL_RADIUS_M;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
@@ -69,7 +69,7 @@ fn main() {
         let preferred_mps: Vec<Vec2> = (0..AGENTS)
             .map(|agent| {
                 let (progress, remembered) = (&mut progress[agent], &mut remembered[agent]);
-                preferred_mps(&agents[agent], positions_m[agent], &view, progress, remembered)
+                preferred_motion(&agents[agent], positions_m[agent], &view, progress, remembered).velocity_mps
             })
             .collect();
         neighbours.rebuild(&positions_m, &velocities_mps, &[RADIUS_M; AGENTS], ranking_horizon_s(planner, &params));
@@ -80,6 +80,7 @@ fn main() {
             radii_m: &[RADIUS_M; AGENTS],
             wall_radii_m: &[WALL_RADIUS_M; AGENTS],
             preferred_mps: &preferred_mps,
+            facing_offsets_rad: &[0.0; AGENTS],
             stances: &[Stance::default(); AGENTS],
             planned_mps: &velocities_mps,
             strafing_s: &plans.iter().map(|plan| plan.strafing_s).collect::<Vec<f32>>(),

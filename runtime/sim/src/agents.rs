@@ -64,6 +64,8 @@ pub struct Agents {
     pub route_memory: Vec<RouteMemory>,
     /// v_pref, m/s.
     pub preferred_mps: Vec<Vec2>,
+    /// Angle from v_pref to the preferred facing, rounded as it is recorded, rad.
+    pub facing_offsets_rad: Vec<f32>,
     /// Plan for the step.
     pub plans: Vec<Plan>,
     /// Velocity of the last plan, m/s.
@@ -104,6 +106,7 @@ macro_rules! for_each_array {
             progress,
             route_memory,
             preferred_mps,
+            facing_offsets_rad,
             plans,
             planned_mps,
             strafing_s,
@@ -147,6 +150,7 @@ impl Agents {
         self.progress.push(PathProgress::default());
         self.route_memory.push(RouteMemory::default());
         self.preferred_mps.push(Vec2::ZERO);
+        self.facing_offsets_rad.push(0.0);
         self.plans.push(Plan::default());
         self.planned_mps.push(Vec2::ZERO);
         self.strafing_s.push(0.0);

@@ -18,7 +18,7 @@
 
 use std::sync::Arc;
 
-use glam::{Quat, Vec2};
+use glam::Quat;
 use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
@@ -32,6 +32,7 @@ use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
+use crate::recording::frame_packing::recorded_offset_rad;
 use crate::route::door_routes::{ClosedDoors, DoorRoutes};
 use crate::route::mesh::RouteError;
 use crate::route::path::{Braking, RouteView};
@@ -244,24 +245,26 @@ impl Simulation {
         let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
         let passing = doors.passing(agents);
         let view_passing = RouteView { routes: routes.all_open(), doors: None, ..view };
-        let Agents { ids, removals, positions_m, closed_zones, progress, route_memory, preferred_mps, .. } = agents;
+        let Agents { ids, removals, positions_m, closed_zones, progress, route_memory, .. } = agents;
         let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
-        let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred_mps).enumerate();
-        present.zip(remembered).for_each(
-            |((index, (((id, removal), position_m), preferred_mps)), (progress, memory))| {
-                // An agent that leaves goes on as it went: it may have passed its goal.
-                if removal.is_some() {
-                    return;
-                }
-                let life = &population.agents[id.index()];
-                let walker = PathWalker::new(&life.spec, crowd.agents.get(index), *position_m, state_zones);
-                let has_begun = life.begins_at(dt_s) <= *steps;
-                let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
-                let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
-                let view = &RouteView { obstacles, ..*view };
-                *preferred_mps = if has_begun { walker.preferred_mps(view, progress, memory) } else { Vec2::ZERO };
-            },
-        );
+        let preferred = agents.preferred_mps.par_iter_mut().zip(&mut agents.facing_offsets_rad);
+        let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred).enumerate();
+        present.zip(remembered).for_each(|((index, (((id, removal), position_m), preferred)), (progress, memory))| {
+            // An agent that leaves goes on as it went: it may have passed its goal.
+            if removal.is_some() {
+                return;
+            }
+            let life = &population.agents[id.index()];
+            let walker = PathWalker::new(&life.spec, crowd.agents.get(index), *position_m, state_zones);
+            let has_begun = life.begins_at(dt_s) <= *steps;
+            let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
+            let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
+            let view = &RouteView { obstacles, ..*view };
+            let motion = if has_begun { walker.preferred_motion(view, progress, memory) } else { Default::default() };
+            let (preferred_mps, facing_offset_rad) = preferred;
+            *preferred_mps = motion.velocity_mps;
+            *facing_offset_rad = recorded_offset_rad(motion.facing_offset_rad);
+        });
     }
 
     /// The view of the world that planners read. The neighbours are those of the last step's beginning, so they lack
@@ -275,6 +278,7 @@ impl Simulation {
             radii_m: &agents.radii_m,
             wall_radii_m: &agents.wall_radii_m,
             preferred_mps: &agents.preferred_mps,
+            facing_offsets_rad: &agents.facing_offsets_rad,
             stances: &agents.stances,
             planned_mps: &agents.planned_mps,
             strafing_s: &agents.strafing_s,
@@ -352,6 +356,7 @@ impl Simulation {
             state: self.crowd.agents.get(index).map_or(0, |agent| agent.state as u16),
             root: agents.statures[index].root_of_crowd(body.root),
             preferred_mps: agents.preferred_mps[index],
+            facing_offset_rad: agents.facing_offsets_rad[index],
             planned_mps: plan.velocity_mps,
             phase: body.motion.phase,
             mode: body.motion.mode,

@@ -3,19 +3,22 @@
 //!
 //! Discs are narrower than shoulders and arms. Each wall near an agent, and each agent near it, leaves the agent a
 //! half-plane of the ground: that before the nearest point of the wall, and its own share of the way to the other
-//! agent. Two bodies that keep to their half-planes do not meet.
+//! agent. Two bodies that keep to their half-planes do not meet. Where there is too little room for all, the later
+//! sides count more; walls come last, since the other agent can yield too.
 //!
-//! The planner finds them; the synthesis keeps the upper body within them (`body_clearance`). World axes, relative to the
-//! agent's centre, metres.
+//! The planner finds them; the synthesis keeps the upper body within them (`body_clearance`, `squeeze`). World axes,
+//! relative to the agent's centre, metres.
 
 use glam::Vec2;
 
 /// Most sides that count.
-const SIDES_MAX: usize = 8;
+pub(crate) const SIDES_MAX: usize = 8;
 /// Distance beyond which a side does not count, m: what an arm reaches that hangs or swings.
 const REACH_M: f32 = 0.5;
+/// Cosine of the angle to the left or right within which a side limits the shoulders: 60°.
+const BESIDE_COS: f32 = 0.5;
 
-/// The sides at which something stands near an agent: the nearest eight, in no order.
+/// The sides at which something stands near an agent: the nearest eight, in the order of [`ElbowRoom::ending_at`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ElbowRoom {
     sides: [RoomSide; SIDES_MAX],
@@ -32,7 +35,7 @@ pub struct RoomSide {
 }
 
 impl ElbowRoom {
-    /// The room whose sides end at points, relative to the agent's centre, world axes, m.
+    /// The room whose sides end at points, relative to the agent's centre, world axes, m; the later count more.
     pub fn ending_at(points_m: impl IntoIterator<Item = Vec2>) -> Self {
         let mut room = Self::default();
         points_m.into_iter().for_each(|point_m| room.end_at(point_m));
@@ -50,14 +53,30 @@ impl ElbowRoom {
         if distance_m > REACH_M {
             return;
         }
-        if self.count < SIDES_MAX {
-            self.sides[self.count] = RoomSide { towards, distance_m };
-            self.count += 1;
-        } else if let Some(farthest) = self.sides.iter_mut().max_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
-            && distance_m < farthest.distance_m
-        {
-            *farthest = RoomSide { towards, distance_m };
+        if self.count == SIDES_MAX {
+            let farther = |a: &usize, b: &usize| self.sides[*a].distance_m.total_cmp(&self.sides[*b].distance_m);
+            let Some(farthest) = (0..SIDES_MAX).max_by(farther) else { return };
+            if distance_m >= self.sides[farthest].distance_m {
+                return;
+            }
+            self.sides.copy_within(farthest + 1.., farthest);
+            self.count -= 1;
         }
+        self.sides[self.count] = RoomSide { towards, distance_m };
+        self.count += 1;
+    }
+
+    /// Width of the room on the left and on the right of a body that faces `forward`, m: at most [`REACH_M`] each.
+    pub(crate) fn widths_m(&self, forward: Vec2) -> [f32; 2] {
+        let mut widths_m = [REACH_M; 2];
+        for side in self.sides() {
+            let leftward = forward.perp_dot(side.towards);
+            if leftward.abs() > BESIDE_COS {
+                let width_m = &mut widths_m[usize::from(leftward < 0.0)];
+                *width_m = width_m.min(side.distance_m / leftward.abs());
+            }
+        }
+        widths_m
     }
 
     /// The same in a frame at `origin_m` whose x axis is `forward`.
@@ -92,6 +111,23 @@ mod tests {
         let mut distances_m: Vec<f32> = room.sides().iter().map(|side| side.distance_m).collect();
         distances_m.sort_by(f32::total_cmp);
         assert_eq!(distances_m, [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]);
+    }
+
+    #[test]
+    fn sides_keep_their_order() {
+        let room = room([0.3, 0.45, 0.2, 0.4, 0.1, 0.35, 0.15, 0.25, 0.05]);
+        let distances_m: Vec<f32> = room.sides().iter().map(|side| side.distance_m).collect();
+        assert_eq!(distances_m, [0.3, 0.2, 0.4, 0.1, 0.35, 0.15, 0.25, 0.05]);
+    }
+
+    #[test]
+    fn what_stands_ahead_does_not_make_the_room_narrow() {
+        let [left, ahead, right_ahead] = [[0.0, 0.3], [0.1, 0.0], [0.2, -0.2]].map(Vec2::from);
+        let widths_m = |points_m: &[Vec2]| ElbowRoom::ending_at(points_m.iter().copied()).widths_m(Vec2::X);
+        assert_eq!(widths_m(&[left, ahead]), [0.3, REACH_M]);
+        assert!((widths_m(&[right_ahead])[1] - 0.4).abs() < 1e-6, "the border crosses the line of the shoulders");
+        let turned = ElbowRoom::ending_at([left]).widths_m(Vec2::NEG_Y);
+        assert_eq!(turned, [REACH_M; 2], "behind a body that faces away from it");
     }
 
     #[test]

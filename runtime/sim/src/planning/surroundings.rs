@@ -53,7 +53,7 @@ impl Surroundings {
         with_agents.chain(with_walls).fold(f32::INFINITY, f32::min)
     }
 
-    /// The room that walls and neighbours leave to the body of an agent.
+    /// The room that walls and neighbours leave to the body of an agent; walls count more.
     pub(crate) fn elbow_room(&self, world: &WorldView, agent: usize) -> ElbowRoom {
         let own_m = world.radii_m[agent];
         let walls_m = self.edges.iter().map(|near| {
@@ -61,7 +61,7 @@ impl Surroundings {
             nearest_on_segment(Vec2::ZERO, from_m, to_m)
         });
         let neighbours = self.neighbours.as_slice().iter();
-        ElbowRoom::ending_at(walls_m.chain(neighbours.map(|near| own_m / near.radius_m * near.offset_m)))
+        ElbowRoom::ending_at(neighbours.map(|near| own_m / near.radius_m * near.offset_m).chain(walls_m))
     }
 
     /// Bytes that the lists hold on the heap.

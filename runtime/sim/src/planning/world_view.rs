@@ -41,6 +41,7 @@ use crate::world::one_way::OneWayZone;
 ///     radii_m: &[0.25],
 ///     wall_radii_m: &[0.2],
 ///     preferred_mps: &[walk_mps],
+///     facing_offsets_rad: &[0.0],
 ///     stances: &[Stance::default()],
 ///     planned_mps: &[walk_mps],
 ///     strafing_s: &[0.0],
@@ -73,6 +74,8 @@ pub struct WorldView<'a> {
     pub wall_radii_m: &'a [f32],
     /// v_pref, m/s.
     pub preferred_mps: &'a [Vec2],
+    /// Angles from v_pref to the preferred facing, counter-clockwise, rad.
+    pub facing_offsets_rad: &'a [f32],
     /// How each body stands.
     pub stances: &'a [Stance],
     /// [`Plan::velocity_mps`](crate::planning::Plan::velocity_mps) of the last step.
@@ -205,6 +208,12 @@ impl<'a> WorldView<'a> {
     /// Unit vector along an agent's preferred velocity; zero where that is zero.
     pub(crate) fn preferred_direction(&self, agent: usize) -> Vec2 {
         self.preferred_mps[agent].normalize_or_zero()
+    }
+
+    /// An agent's preferred velocity, turned to the facing that it prefers, m/s.
+    pub(crate) fn preferred_facing_mps(&self, agent: usize) -> Vec2 {
+        let (sin, cos) = libm::sincosf(self.facing_offsets_rad[agent]);
+        Vec2::new(cos, sin).rotate(self.preferred_mps[agent])
     }
 
     /// Unit vector along an agent's facing.

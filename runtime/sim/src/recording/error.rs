@@ -33,7 +33,7 @@ pub enum RecordingError {
     },
     /// Another version of the program wrote the file.
     #[error(
-        "{}: byte 8: format version {found}, but this program reads versions {FORMAT_VERSION_1} and {FORMAT_VERSION}; simulate the scenario again",
+        "{}: byte 8: format version {found}, but this program reads versions {FORMAT_VERSION_1} to {FORMAT_VERSION}; simulate the scenario again",
         path.display()
     )]
     Version {

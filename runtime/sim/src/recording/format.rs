@@ -1,8 +1,10 @@
 //! Magic number, version and chunk kinds of `.fbrec`; docs/fbrec.md describes the format.
 
 /// Format version that is written; raised when a reader of the old version would misread the new one.
-pub const FORMAT_VERSION: u32 = 2;
-/// The format version before, which is still read: the same agents in all frames.
+pub const FORMAT_VERSION: u32 = 3;
+/// The format version before, which is still read: bodies face along their preferred velocities.
+pub const FORMAT_VERSION_2: u32 = 2;
+/// The first format version, which is still read: the same agents in all frames.
 pub const FORMAT_VERSION_1: u32 = 1;
 /// First bytes of every recording.
 pub(crate) const MAGIC: [u8; 8] = *b"FBREC\r\n\x1a";

@@ -19,6 +19,8 @@ pub struct AgentFrame {
     pub root: Root,
     /// v_pref, world, m/s.
     pub preferred_mps: Vec2,
+    /// Angle from v_pref to the preferred facing, counter-clockwise, rad.
+    pub facing_offset_rad: f32,
     /// Velocity planned for the step that led to this frame, world, m/s.
     pub planned_mps: Vec2,
     /// φ: phase of the body's cycle, 0 to 1.
@@ -60,6 +62,7 @@ impl Default for AgentFrame {
             state: 0,
             root: Root::default(),
             preferred_mps: Vec2::ZERO,
+            facing_offset_rad: 0.0,
             planned_mps: Vec2::ZERO,
             phase: 0.0,
             mode: Mode::Blending,

@@ -17,7 +17,7 @@ use glam::{Quat, Vec2};
 
 use crate::population::AgentId;
 use crate::recording::frame::AgentFrame;
-use crate::recording::frame_packing::{FrameFault, PACKED_BYTES, SCALAR_MAX, pack, unpack};
+use crate::recording::frame_packing::{FrameFault, PACKED_BYTES, SCALAR_MAX, pack};
 use crate::recording::rotation_packing::{COARSE_BITS, pack_rotation, packed_rotation_bytes, unpack_rotation};
 use crate::scenario::ranges::AGENTS_MAX;
 
@@ -117,11 +117,15 @@ pub(crate) fn read_positions(compressed: &[u8], count: usize) -> Option<Vec<(Age
     Some(agents)
 }
 
-/// The inverse of [`append_row`].
+/// The inverse of [`append_row`], given how the format version unpacks an agent.
 ///
 /// # Errors
 /// What is wrong with the row.
-pub(crate) fn read_row(row: &[u8], before: Option<AgentId>) -> Result<AgentFrame, FrameFault> {
+pub(crate) fn read_row(
+    row: &[u8],
+    before: Option<AgentId>,
+    unpack: impl Fn(&[u8]) -> Result<AgentFrame, FrameFault>,
+) -> Result<AgentFrame, FrameFault> {
     let (key, packed) = row.split_first_chunk::<KEY_BYTES>().ok_or(FrameFault::TooShort)?;
     let gap = u32::from_le_bytes([key[0], key[1], key[2], key[3]]);
     let least = before.map_or(Some(0), |before| before.0.checked_add(1)).ok_or(FrameFault::IdOutOfRange)?;

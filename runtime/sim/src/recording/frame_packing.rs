@@ -4,7 +4,9 @@
 //! |---|---|
 //! | 12 | root x, y, facing: f32 |
 //! | 16 | v_pref, planned velocity: f32 each |
-//! | 16 | phase, strafing time, stepping-back time, examples' slide: f32 |
+//! | 12 | phase, strafing time, stepping-back time: f32 |
+//! | 2 | examples' slide: u16, in 0.01 cm/s |
+//! | 2 | angle from v_pref to the preferred facing: i16, in π/32767 |
 //! | 4 | contacts left, right: u16, in 1/65535 |
 //! | 3 | time to landing: the upper 24 bits of an f32 that has lost its sign (1/131,072 of it a step) |
 //! | 1 | bit 0 velocity set, bits 1–7 mode |
@@ -14,6 +16,10 @@
 //! Little-endian throughout. The pelvis and the chain down to the sole are packed finer than the other joints because
 //! their steps add up to foot slide: with 15 bits and a 16-bit pelvis a held sole jitters by 0.5 cm/s at 120 frames a
 //! second, packed so by less than 0.1 cm/s.
+//!
+//! Before version 3 the slide was an f32, and no angle was kept.
+
+use std::f32::consts::PI;
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Joint, Pose, Root};
@@ -26,12 +32,17 @@ use crate::recording::rotation_packing::{
 use crate::synthesis::Mode;
 
 /// Bytes of one agent in one frame before compression.
-pub const PACKED_BYTES: usize = 11 * 4 + 2 * 2 + 3 + 1 + 3 * 3 + FINE_JOINTS * 7 + (JOINT_COUNT - FINE_JOINTS) * 6;
+pub const PACKED_BYTES: usize =
+    10 * 4 + 2 + 2 + 2 * 2 + 3 + 1 + 3 * 3 + FINE_JOINTS * 7 + (JOINT_COUNT - FINE_JOINTS) * 6;
 
 /// Greatest offset of the pelvis from its root along an axis, m.
 const PELVIS_RANGE_M: f32 = 4.0;
 /// Steps of the pelvis on either side of zero: 24 bits.
 const PELVIS_STEPS: f32 = 8_388_607.0;
+/// Steps of a slide in 1 cm/s.
+const SLIDE_STEPS: f32 = 100.0;
+/// Steps of an angle in π: 16 bits with the sign.
+const ANGLE_STEPS: f32 = 32_767.0;
 /// Steps of a contact: 16 bits.
 const CONTACT_STEPS: f32 = 65_535.0;
 /// Greatest metre, second, radian or velocity; the largest of any scenario are the 86,400 s of a day.
@@ -61,6 +72,8 @@ pub enum FrameFault {
 pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     let scalars = scalars(frame);
     let finite = scalars.iter().all(|value| value.abs() <= SCALAR_MAX)
+        && (0.0..=SCALAR_MAX).contains(&frame.examples_slide_cm_s)
+        && frame.facing_offset_rad.abs() <= PI
         && frame.contacts.iter().all(|contact| contact.is_finite())
         && (0.0..=SCALAR_MAX).contains(&frame.time_to_landing_s)
         && frame.pose.pelvis_m.is_finite()
@@ -69,6 +82,8 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
         return None;
     }
     scalars.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+    bytes.extend(((frame.examples_slide_cm_s * SLIDE_STEPS).round() as u16).to_le_bytes());
+    bytes.extend(angle_steps(frame.facing_offset_rad).to_le_bytes());
     for contact in frame.contacts {
         bytes.extend(((contact * CONTACT_STEPS).round() as u16).to_le_bytes());
     }
@@ -87,16 +102,47 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     Some(())
 }
 
+/// The angle from v_pref to the preferred facing as a recording keeps it, rad.
+pub(crate) fn recorded_offset_rad(offset_rad: f32) -> f32 {
+    angle_rad(angle_steps(offset_rad))
+}
+
+fn angle_steps(angle_rad: f32) -> i16 {
+    (angle_rad / PI * ANGLE_STEPS).round() as i16
+}
+
+fn angle_rad(steps: i16) -> f32 {
+    f32::from(steps.max(-i16::MAX)) / ANGLE_STEPS * PI
+}
+
 /// The inverse of `pack`; id and state, which are not packed, are 0.
 ///
 /// # Errors
 /// If the bytes are not a frame of an agent.
 pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
+    unpack_with(bytes, |rest| {
+        let slide_cm_s = f32::from(u16::from_le_bytes(take(rest)?)) / SLIDE_STEPS;
+        Ok([slide_cm_s, angle_rad(i16::from_le_bytes(take(rest)?))])
+    })
+}
+
+/// As [`unpack`], from bytes of versions 1 and 2.
+pub(crate) fn unpack_version_2(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
+    unpack_with(bytes, |rest| Ok([take_f32(rest)?, 0.0]))
+}
+
+/// As [`unpack`]; `take_slide_and_offset` takes the examples' slide, cm/s, and the angle from v_pref to the preferred
+/// facing, rad.
+fn unpack_with(
+    bytes: &[u8],
+    take_slide_and_offset: impl Fn(&mut &[u8]) -> Result<[f32; 2], FrameFault>,
+) -> Result<AgentFrame, FrameFault> {
     let rest = &mut &*bytes;
     let root = Root { position_m: take_vec2(rest)?, facing_rad: take_f32(rest)? };
     let (preferred_mps, planned_mps) = (take_vec2(rest)?, take_vec2(rest)?);
     let (phase, strafing_s) = (take_f32(rest)?, take_f32(rest)?);
-    let (stepping_back_s, examples_slide_cm_s) = (take_f32(rest)?, take_f32(rest)?);
+    let stepping_back_s = take_f32(rest)?;
+    let [examples_slide_cm_s, facing_offset_rad] = take_slide_and_offset(rest)?;
     let contacts = [take_contact(rest)?, take_contact(rest)?];
     let time_to_landing_s = take_time_to_landing(rest)?;
     let [flags] = take(rest)?;
@@ -107,6 +153,7 @@ pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
     Ok(AgentFrame {
         root,
         preferred_mps,
+        facing_offset_rad,
         planned_mps,
         phase,
         mode: mode(flags >> 1)?,
@@ -122,7 +169,7 @@ pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
 }
 
 /// The values packed as f32, in order.
-fn scalars(frame: &AgentFrame) -> [f32; 11] {
+fn scalars(frame: &AgentFrame) -> [f32; 10] {
     [
         frame.root.position_m.x,
         frame.root.position_m.y,
@@ -134,7 +181,6 @@ fn scalars(frame: &AgentFrame) -> [f32; 11] {
         frame.phase,
         frame.strafing_s,
         frame.stepping_back_s,
-        frame.examples_slide_cm_s,
     ]
 }
 
@@ -247,7 +293,11 @@ mod tests {
 
         #[test]
         fn scalars_come_back_exactly_and_contacts_keep_their_side(
-            values in proptest::array::uniform11(-1e4_f32..1e4), contact in 0.0_f32..1.0, landing in 0.0_f32..1e5,
+            values in proptest::array::uniform10(-1e4_f32..1e4),
+            contact in 0.0_f32..1.0,
+            landing in 0.0_f32..1e5,
+            slide_cm_s in 0.0_f32..600.0,
+            offset_rad in -PI..PI,
         ) {
             let frame = AgentFrame {
                 root: Root { position_m: Vec2::new(values[0], values[1]), facing_rad: values[2] },
@@ -257,14 +307,23 @@ mod tests {
                 set: VelocitySet::Holding,
                 strafing_s: values[8],
                 stepping_back_s: values[9],
-                examples_slide_cm_s: values[10],
+                examples_slide_cm_s: slide_cm_s,
+                facing_offset_rad: recorded_offset_rad(offset_rad),
                 contacts: [contact, 0.5],
                 time_to_landing_s: landing,
                 ..AgentFrame::default()
             };
             let back = round_trip(&frame);
             prop_assert!((back.time_to_landing_s - landing).abs() <= landing / 131_072.0);
-            prop_assert_eq!(AgentFrame { contacts: frame.contacts, time_to_landing_s: landing, ..back }, frame);
+            prop_assert!((back.examples_slide_cm_s - slide_cm_s).abs() < 0.006);
+            prop_assert!((back.facing_offset_rad - offset_rad).abs() < 1e-4);
+            let rounded = AgentFrame {
+                contacts: frame.contacts,
+                time_to_landing_s: landing,
+                examples_slide_cm_s: slide_cm_s,
+                ..back
+            };
+            prop_assert_eq!(rounded, frame);
             prop_assert!((back.contacts[0] - contact).abs() < 1e-5 && back.contacts[1] >= 0.5);
         }
     }

@@ -8,11 +8,12 @@ use crate::population::{AgentId, Population};
 use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{
-    AGENTS, EXTRA, FORMAT_VERSION, FORMAT_VERSION_1, FRAME, INDEX, INDEX_ENTRY_BYTES, MAGIC, TAIL, TAIL_BYTES,
+    AGENTS, EXTRA, FORMAT_VERSION, FORMAT_VERSION_1, FORMAT_VERSION_2, FRAME, INDEX, INDEX_ENTRY_BYTES, MAGIC, TAIL,
+    TAIL_BYTES,
 };
 use crate::recording::frame::AgentFrame;
 use crate::recording::frame_chunk::{EXTRA_JOINT_BYTES, FrameStart, ROW_BYTES, decompress, read_extra_rows};
-use crate::recording::frame_packing::{PACKED_BYTES, unpack};
+use crate::recording::frame_packing::{PACKED_BYTES, unpack, unpack_version_2};
 use crate::recording::header::Header;
 use crate::recording::{agents_chunk, frame_chunk, version_1, zipped_json};
 
@@ -118,10 +119,11 @@ impl Recording {
             return self.read_frame_of_version_1(index, byte, &payload, agents);
         }
         let rows = self.rows(index, byte, &payload, ROW_BYTES)?;
+        let unpack = if self.frames.version == FORMAT_VERSION_2 { unpack_version_2 } else { unpack };
         for row in rows.chunks_exact(ROW_BYTES) {
             let agent = agents.len();
             let at_agent = |fault| RecordingError::Frame { path: path(), byte, frame: index, agent, fault };
-            let frame = frame_chunk::read_row(row, agents.last().map(|before: &AgentFrame| before.id));
+            let frame = frame_chunk::read_row(row, agents.last().map(|before: &AgentFrame| before.id), unpack);
             agents.push(frame.map_err(at_agent)?);
         }
         self.check_agents(index, byte, agents)
@@ -228,7 +230,7 @@ impl Recording {
         for (agent, packed) in rows.chunks_exact(PACKED_BYTES).enumerate() {
             let path = self.file.path().to_owned();
             let at_agent = |fault| RecordingError::Frame { path, byte, frame: index, agent, fault };
-            agents.push(AgentFrame { id: agent.into(), ..unpack(packed).map_err(at_agent)? });
+            agents.push(AgentFrame { id: agent.into(), ..unpack_version_2(packed).map_err(at_agent)? });
         }
         Ok(())
     }
@@ -247,7 +249,7 @@ fn read_version(file: &ChunkFile) -> Result<u32, RecordingError> {
     }
     let version = file.read(MAGIC.len() as u64, 4)?;
     match u32::from_le_bytes(version.try_into().map_err(|_| foreign())?) {
-        known @ (FORMAT_VERSION_1 | FORMAT_VERSION) => Ok(known),
+        known @ (FORMAT_VERSION_1..=FORMAT_VERSION) => Ok(known),
         found => Err(RecordingError::Version { path: file.path().to_owned(), found }),
     }
 }

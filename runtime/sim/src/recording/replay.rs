@@ -1,7 +1,7 @@
 //! Any step of a recording as the planner saw it: a recording is complete enough to plan each step again.
 //!
 //! Step k leads from frame k to frame k + 1. Positions, facings, strafing times and the stance foot are frame k's,
-//! velocities those that led to it; v_pref, which the step itself computes, is in frame k + 1. Everything but the
+//! velocities those that led to it; v_pref and the preferred facing, which the step itself computes, are in frame k + 1. Everything but the
 //! stance foot is kept bit for bit. The stance foot comes from a packed pose and time to landing, so where it decides,
 //! their rounding does too (a tenth of a millimetre at the sole, some mm/s of the plan). The velocity to which a body
 //! is committed on the paper's transition between syntheses (`transition = "through_m_mb"`) is not recorded; the actual
@@ -65,6 +65,7 @@ pub struct RecordedStep<'a> {
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     preferred_mps: Vec<Vec2>,
+    facing_offsets_rad: Vec<f32>,
     stances: Vec<Stance>,
     planned_mps: Vec<Vec2>,
     strafing_s: Vec<f32>,
@@ -151,6 +152,7 @@ impl<'a> Replay<'a> {
             velocities_mps,
             facings_rad: before.iter().map(|agent| agent.root.facing_rad).collect(),
             preferred_mps: after.iter().map(|agent| agent.preferred_mps).collect(),
+            facing_offsets_rad: after.iter().map(|agent| agent.facing_offset_rad).collect(),
             stances: before.iter().map(|agent| self.stance(agent, life(agent).stature)).collect(),
             planned_mps: before.iter().map(planned_mps).collect(),
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
@@ -228,6 +230,7 @@ impl RecordedStep<'_> {
             radii_m: &self.radii_m,
             wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
+            facing_offsets_rad: &self.facing_offsets_rad,
             stances: &self.stances,
             planned_mps: &self.planned_mps,
             strafing_s: &self.strafing_s,

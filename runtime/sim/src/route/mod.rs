@@ -41,5 +41,5 @@ pub(crate) mod steering;
 pub use crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
 pub use door_routes::ClosedDoors;
 pub use params::{KeepSide, RouteParams};
-pub use path::{Braking, PathProgress, RouteView, preferred_mps};
+pub use path::{Braking, PathProgress, PreferredMotion, RouteView, preferred_motion};
 pub use reach::{ClosedToAgents, closed_to_agents};

@@ -9,7 +9,7 @@ use glam::Vec2;
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, RouteMemory};
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
-use crate::route::steering;
+use crate::route::steering::{self, Heading};
 use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
 
@@ -118,21 +118,44 @@ pub(crate) struct Walker {
     pub(crate) class: MeshClass,
 }
 
-/// v_pref at a position, m/s. Cases, in order:
+/// The motion that an agent prefers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PreferredMotion {
+    /// v_pref, m/s.
+    pub velocity_mps: Vec2,
+    /// Angle from v_pref to the preferred facing, counter-clockwise, rad: 0, unless the agent goes back off a wall and
+    /// faces along its route.
+    pub facing_offset_rad: f32,
+}
+
+impl PreferredMotion {
+    /// The motion of an agent that faces where it goes, m/s.
+    pub fn ahead(velocity_mps: Vec2) -> Self {
+        Self { velocity_mps, facing_offset_rad: 0.0 }
+    }
+
+    fn along(heading: Heading, speed_mps: f32) -> Self {
+        let Heading { direction, onwards } = heading;
+        let facing_offset_rad = libm::atan2f(direction.perp_dot(onwards), direction.dot(onwards));
+        Self { velocity_mps: direction * speed_mps, facing_offset_rad }
+    }
+}
+
+/// The motion that an agent prefers at a position. Cases, in order:
 ///
 /// 1. no goals, or the last one reached: stay;
 /// 2. a wall before the next waypoint: around it (`steering`);
 /// 3. before a waypoint that is not the last: towards it, rounding it;
 /// 4. before the last: towards it, braking.
-pub fn preferred_mps(
+pub fn preferred_motion(
     agent: &AgentSpec,
     position_m: Vec2,
     view: &RouteView,
     progress: &mut PathProgress,
     memory: &mut RouteMemory,
-) -> Vec2 {
+) -> PreferredMotion {
     if agent.goals_m.is_empty() {
-        return Vec2::ZERO;
+        return PreferredMotion::default();
     }
     let to_last = progress.pass(agent, position_m);
     let next = progress.next as usize;
@@ -142,16 +165,17 @@ pub fn preferred_mps(
     let corner = view.next([position_m, goal_m], agent.wall_radius_m, memory, query);
     let can_rest = corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal_m, &corner));
     progress.arrived = to_last && can_rest && to_goal_m.length() < arrival_radius_m(progress.arrived);
-    if let Some(direction) = corner
-        .and_then(|corner| steering::direction(position_m, &corner, view.keep, agent.wall_radius_m, view.obstacles))
+    if let Some(heading) =
+        corner.and_then(|corner| steering::heading(position_m, &corner, view.keep, agent.wall_radius_m, view.obstacles))
     {
-        return direction * agent.preferred_speed_mps;
+        return PreferredMotion::along(heading, agent.preferred_speed_mps);
     }
     if !to_last {
-        return RoundedWaypoint::new(agent, next).direction(position_m) * agent.preferred_speed_mps;
+        let direction = RoundedWaypoint::new(agent, next).direction(position_m);
+        return PreferredMotion::ahead(direction * agent.preferred_speed_mps);
     }
     let speed_mps = goal_speed_mps(to_goal_m.length(), agent.preferred_speed_mps, view.braking, progress.arrived);
-    to_goal_m.normalize_or_zero() * speed_mps
+    PreferredMotion::ahead(to_goal_m.normalize_or_zero() * speed_mps)
 }
 
 /// A waypoint that is not the last one, and how it is rounded.
@@ -203,14 +227,14 @@ fn leans_on_wall(position_m: Vec2, goal_m: Vec2, corner: &NextCorner) -> bool {
     is_goal_on_mesh && off_mesh_m > LEANS_M
 }
 
-/// v_pref towards a goal that is not a waypoint, around walls, m/s; `arrived` states whether the agent stands there.
-pub(crate) fn towards_mps(
+/// The motion towards a goal that is not a waypoint, around walls; `arrived` states whether the agent stands there.
+pub(crate) fn motion_towards(
     agent: &Walker,
     goal: &RouteEnd,
     view: &RouteView,
     arrived: &mut bool,
     memory: &mut RouteMemory,
-) -> Vec2 {
+) -> PreferredMotion {
     let &Walker { position_m, speed_mps, wall_radius_m, class } = agent;
     let to_goal_m = goal.position_m - position_m;
     let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(class, position_m, goal, memory);
@@ -219,11 +243,12 @@ pub(crate) fn towards_mps(
         corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal.position_m, &corner));
     *arrived = can_rest && to_goal_m.length() < arrival_radius_m(*arrived);
     let around =
-        corner.and_then(|corner| steering::direction(position_m, &corner, view.keep, wall_radius_m, view.obstacles));
-    match around {
-        Some(direction) => direction * speed_mps,
-        None => to_goal_m.normalize_or_zero() * goal_speed_mps(to_goal_m.length(), speed_mps, view.braking, *arrived),
+        corner.and_then(|corner| steering::heading(position_m, &corner, view.keep, wall_radius_m, view.obstacles));
+    if let Some(heading) = around {
+        return PreferredMotion::along(heading, speed_mps);
     }
+    let speed_mps = goal_speed_mps(to_goal_m.length(), speed_mps, view.braking, *arrived);
+    PreferredMotion::ahead(to_goal_m.normalize_or_zero() * speed_mps)
 }
 
 /// Speed before the last goal, m/s.
@@ -279,7 +304,7 @@ mod tests {
             keep: KeepSide::Right,
             braking: Braking::Evenly,
         };
-        preferred_mps(agent, position_m, &view, progress, &mut RouteMemory::default())
+        preferred_motion(agent, position_m, &view, progress, &mut RouteMemory::default()).velocity_mps
     }
 
     /// v_pref at each step of a disc that follows it for a time, the least distance from its first waypoint, and its
@@ -367,11 +392,17 @@ mod tests {
             braking: Braking::Evenly,
         };
         let mut progress = PathProgress { next: 1, arrived: false };
-        let mut direction = |x_m, y_m| {
-            let memory = &mut RouteMemory::default();
-            preferred_mps(&agent, Vec2::new(x_m, y_m), &view, &mut progress, memory).normalize()
+        let mut motion = |x_m, y_m| {
+            let motion =
+                preferred_motion(&agent, Vec2::new(x_m, y_m), &view, &mut progress, &mut RouteMemory::default());
+            let direction = motion.velocity_mps.normalize();
+            (direction, Vec2::from_angle(motion.facing_offset_rad).rotate(direction))
         };
-        assert!(direction(-0.5, 1.5).y < -0.5, "{}", direction(-0.5, 1.5));
-        assert!(direction(-0.5, 0.1).x > 0.99 && direction(0.75, 1.5).x > 0.99);
+        let (before, facing) = motion(-0.5, 1.5);
+        assert!(before.y < -0.5 && facing == before, "{before} {facing}");
+        assert!(motion(-0.5, 0.1).0.x > 0.99 && motion(0.75, 1.5).0.x > 0.99);
+        // Too near to the post it goes back off it, but faces along its route.
+        let (beside, facing) = motion(-0.2, 1.5);
+        assert!(beside.y > -0.4 && facing.y < -0.7, "{beside} {facing}");
     }
 }

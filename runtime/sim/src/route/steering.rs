@@ -1,9 +1,11 @@
-//! The direction of v_pref around a corner (docs/tuning.md, Routes). World, metres.
+//! The direction of v_pref, and of the facing, around a corner (docs/tuning.md, Routes). World, metres.
 //!
 //! An agent that aims at the corner itself turns late and comes near the wall. It anticipates the turn instead: the
 //! direction to the corner, less half the direction to the point after it (dtCrowd of Detour: `calcSmoothSteerDirection`).
 //! Both streams of a two-way corner want its inner corner, and lock; so an agent that turns left keeps off the inner
 //! corner, on the right side of the passage.
+//!
+//! An agent that the crowd holds too near to a wall goes back off it, but faces along its route.
 
 use glam::Vec2;
 
@@ -24,17 +26,26 @@ const RETURN_M: f32 = 0.1;
 /// Distance from a waypoint in sight within which the mesh does not count, m: waypoints may lie beside it.
 const NEAR_M: f32 = 1.0;
 
-/// Unit direction of v_pref of an agent around walls; none where its waypoint is in sight.
+/// Where an agent goes and what it faces, as unit vectors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Heading {
+    /// Direction of v_pref.
+    pub(crate) direction: Vec2,
+    /// Direction of the route, which the agent faces.
+    pub(crate) onwards: Vec2,
+}
+
+/// The heading of an agent around walls; none where its waypoint is in sight.
 ///
 /// 1. On the mesh: before a corner, the anticipated turn.
 /// 2. Off the mesh, too near to a wall: as from the nearest point of the mesh, and back to that point.
-pub(crate) fn direction(
+pub(crate) fn heading(
     position_m: Vec2,
     next: &NextCorner,
     keep: KeepSide,
     wall_radius_m: f32,
     obstacles: &Obstacles,
-) -> Option<Vec2> {
+) -> Option<Heading> {
     let from_m = next.entry_m.unwrap_or(position_m);
     let onwards = match next.after_m {
         Some(after_m) => {
@@ -43,7 +54,8 @@ pub(crate) fn direction(
         None if next.entry_m.is_none() || next.distance_m < NEAR_M => return None,
         None => (next.corner_m - from_m).normalize_or_zero(),
     };
-    Some((RETURN_M * onwards + (from_m - position_m)).normalize_or(onwards))
+    let direction = (RETURN_M * onwards + (from_m - position_m)).normalize_or(onwards);
+    Some(Heading { direction, onwards })
 }
 
 /// Distance from a corner within which an agent turns along the route beyond, m: one that a crowd holds beside the

@@ -1,10 +1,10 @@
-//! Stage 1 of a step for one agent: what its state wants, or its own waypoints, becomes v_pref. World, metres.
+//! Stage 1 of a step for one agent: what its state wants, or its own waypoints, becomes v_pref and the preferred facing. World, metres.
 
 use glam::Vec2;
 
 use crate::behaviour::{AgentState, Aim};
 use crate::route::crowd_routes::{MeshClass, RouteEnd, RouteMemory};
-use crate::route::path::{self, Braking, PathProgress, RouteView, Walker};
+use crate::route::path::{self, Braking, PathProgress, PreferredMotion, RouteView, Walker};
 use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::ranges::COORDINATE_MAX_M;
 use crate::scenario::{AgentSpec, AtGoal};
@@ -30,25 +30,25 @@ impl<'a> PathWalker<'a> {
         Self { spec, state, position_m, closed_zones }
     }
 
-    /// v_pref, m/s.
-    pub(super) fn preferred_mps(
+    /// The motion that it prefers.
+    pub(super) fn preferred_motion(
         &self,
         view: &RouteView,
         progress: &mut PathProgress,
         memory: &mut RouteMemory,
-    ) -> Vec2 {
-        let Some(state) = self.state else { return self.along_path_mps(view, progress, memory) };
+    ) -> PreferredMotion {
+        let Some(state) = self.state else { return self.motion_along_path(view, progress, memory) };
         progress.arrived &= !state.has_new_aim;
         match state.aim {
-            Aim::OwnPath => self.along_path_mps(view, progress, memory),
+            Aim::OwnPath => self.motion_along_path(view, progress, memory),
             Aim::Goal { position_m, .. } | Aim::Position(position_m) => {
                 let end = RouteEnd { position_m, area: state.goal.map(|goal| goal.at) };
-                path::towards_mps(&self.walker(state), &end, view, &mut progress.arrived, memory)
+                path::motion_towards(&self.walker(state), &end, view, &mut progress.arrived, memory)
             }
             // Beyond all scenarios it stands.
-            Aim::Velocity(_) if self.position_m.abs().max_element() > COORDINATE_MAX_M => Vec2::ZERO,
-            Aim::Velocity(velocity_mps) => velocity_mps,
-            Aim::Stay { .. } | Aim::Leave { .. } => Vec2::ZERO,
+            Aim::Velocity(_) if self.position_m.abs().max_element() > COORDINATE_MAX_M => PreferredMotion::default(),
+            Aim::Velocity(velocity_mps) => PreferredMotion::ahead(velocity_mps),
+            Aim::Stay { .. } | Aim::Leave { .. } => PreferredMotion::default(),
         }
     }
 
@@ -58,18 +58,23 @@ impl<'a> PathWalker<'a> {
         Walker { position_m, speed_mps: state.traits.preferred_speed_mps, wall_radius_m, class }
     }
 
-    /// v_pref along its own waypoints, at the speed of its state, m/s.
-    fn along_path_mps(&self, view: &RouteView, progress: &mut PathProgress, memory: &mut RouteMemory) -> Vec2 {
+    /// The motion along its own waypoints, at the speed of its state.
+    fn motion_along_path(
+        &self,
+        view: &RouteView,
+        progress: &mut PathProgress,
+        memory: &mut RouteMemory,
+    ) -> PreferredMotion {
         let view = match self.spec.at_goal {
             AtGoal::Stay => *view,
             AtGoal::Leave | AtGoal::LeaveAtOnce => RouteView { braking: Braking::Not, ..*view },
         };
         let speed_mps = self.state.map_or(self.spec.preferred_speed_mps, |state| state.traits.preferred_speed_mps);
         if speed_mps == self.spec.preferred_speed_mps && self.closed_zones == self.spec.closed_zones {
-            return path::preferred_mps(self.spec, self.position_m, &view, progress, memory);
+            return path::preferred_motion(self.spec, self.position_m, &view, progress, memory);
         }
         let closed_zones = self.closed_zones;
         let spec = AgentSpec { preferred_speed_mps: speed_mps, closed_zones, ..self.spec.clone() };
-        path::preferred_mps(&spec, self.position_m, &view, progress, memory)
+        path::preferred_motion(&spec, self.position_m, &view, progress, memory)
     }
 }

@@ -7,7 +7,7 @@ use fbcrowd_sim::measures::Collisions;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{Plan, Planner, PlannerMemory, Stance, WorldView, plan, ranking_horizon_s};
-use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_mps};
+use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_motion};
 use fbcrowd_sim::scenario::AgentSpec;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
@@ -153,6 +153,7 @@ impl DiscCrowd {
             radii_m: &self.radii_m,
             wall_radii_m: &self.radii_m,
             preferred_mps: &preferred_mps,
+            facing_offsets_rad: &vec![0.0; self.agents.len()],
             stances: &vec![Stance::default(); count],
             planned_mps: &planned_mps,
             strafing_s: &strafing_s,
@@ -188,7 +189,7 @@ impl DiscCrowd {
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
         agents
             .map(|((agent, &position_m), progress)| {
-                preferred_mps(agent, position_m, &view, progress, &mut RouteMemory::default())
+                preferred_motion(agent, position_m, &view, progress, &mut RouteMemory::default()).velocity_mps
             })
             .collect()
     }

@@ -83,6 +83,7 @@ impl Scene {
             radii_m: &radii_m,
             wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
+            facing_offsets_rad: &vec![0.0; count],
             stances: &self.stances,
             planned_mps: &self.velocities_mps,
             strafing_s: &vec![0.0; count],
@@ -398,7 +399,7 @@ fn walls_and_agents_leave_elbow_room() {
         Obstacles::new(&[[[-3.0, -0.9], [3.0, -0.9], [3.0, -0.4], [-3.0, -0.4]].map(Vec2::from).to_vec()]);
     let room = scene.plan().room;
     let ends_m = room.sides().iter().map(|side| side.distance_m * side.towards);
-    let expected_m = [Vec2::new(0.0, -0.4), Vec2::new(0.3, 0.0)];
+    let expected_m = [Vec2::new(0.3, 0.0), Vec2::new(0.0, -0.4)];
     assert!(ends_m.clone().count() == 2, "{room:?}");
     assert!(ends_m.zip(expected_m).all(|(end_m, expected_m)| end_m.distance(expected_m) < 1e-5), "{room:?}");
 }

@@ -32,6 +32,7 @@ struct Scene {
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     preferred_mps: Vec<Vec2>,
+    facing_offsets_rad: Vec<f32>,
     stances: Vec<Stance>,
     /// Durations of side-stepping and of stepping back, s.
     held_s: [Vec<f32>; 2],
@@ -60,10 +61,20 @@ impl Scene {
         let mut each = |range: f64| -> Vec<Vec2> { (0..AGENTS).map(|_| vector(random, range)).collect() };
         let (positions_m, velocities_mps, preferred_mps) = (each(SQUARE_M), each(1.2), each(1.2));
         let held_s = [each(1.0), each(1.0)].map(|held| held.iter().map(|held_s| held_s.x.max(0.0)).collect());
-        let facings_rad = each(std::f64::consts::PI).iter().map(|facing| facing.x).collect();
+        let [facings_rad, facing_offsets_rad] =
+            [std::f64::consts::PI, 2.0].map(|range| each(range).iter().map(|angle| angle.x).collect());
         let stances = (0..AGENTS).map(|_| stance(random)).collect();
         let polygons_m = (0..2).map(|_| block_m(vector(random, SQUARE_M), vector(random, 1.0))).collect();
-        Self { positions_m, velocities_mps, facings_rad, preferred_mps, stances, held_s, polygons_m }
+        Self {
+            positions_m,
+            velocities_mps,
+            facings_rad,
+            preferred_mps,
+            facing_offsets_rad,
+            stances,
+            held_s,
+            polygons_m,
+        }
     }
 
     fn turned(&self, turn_rad: f32, moved_m: Vec2) -> Self {
@@ -76,6 +87,7 @@ impl Scene {
             velocities_mps: turned(&self.velocities_mps),
             facings_rad: self.facings_rad.iter().map(|facing_rad| facing_rad + turn_rad).collect(),
             preferred_mps: turned(&self.preferred_mps),
+            facing_offsets_rad: self.facing_offsets_rad.clone(),
             stances: self.stances.iter().map(|stance| turned_stance(stance, turn)).collect(),
             held_s: self.held_s.clone(),
             polygons_m: self.polygons_m.iter().map(|polygon_m| moved(polygon_m)).collect(),
@@ -95,6 +107,7 @@ impl Scene {
             radii_m: &radii_m,
             wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
+            facing_offsets_rad: &self.facing_offsets_rad,
             stances: &self.stances,
             planned_mps: &self.velocities_mps,
             strafing_s: &self.held_s[0],

@@ -37,6 +37,7 @@ pub struct GeneratedWorld {
     radii_m: Vec<f32>,
     wall_radii_m: Vec<f32>,
     preferred_mps: Vec<Vec2>,
+    facing_offsets_rad: Vec<f32>,
     stances: Vec<Stance>,
     planned_mps: Vec<Vec2>,
     strafing_s: Vec<f32>,
@@ -68,6 +69,7 @@ impl GeneratedWorld {
             stepping_back_s: (0..count).map(|_| draw.within(3.0).max(0.0)).collect(),
             planned_mps: (0..count).map(|_| draw.velocity_mps()).collect(),
             dt_s: [1.0 / 120.0, 1.0 / 30.0, 0.1][draw.below(3)],
+            facing_offsets_rad: (0..count).map(|_| draw.within(2.0)).collect(),
             positions_m,
             polygons_m,
         }
@@ -105,6 +107,7 @@ impl GeneratedWorld {
             radii_m: &self.radii_m,
             wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
+            facing_offsets_rad: &self.facing_offsets_rad,
             stances: &self.stances,
             planned_mps: &self.planned_mps,
             strafing_s: &self.strafing_s,

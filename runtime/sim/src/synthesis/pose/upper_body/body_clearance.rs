@@ -4,8 +4,9 @@
 //! The trunk tilts about the foot of the spine as far as brings both shoulders within the elbow room
 //! ([`crate::planning::elbow_room`]), and no farther than people lean; the head keeps its orientation. Then each arm
 //! turns as a whole about its shoulder as far as brings elbow, wrist and finger tips within the room, and no farther
-//! than under the shoulder. All turns follow by a filter of the third order: neither rate nor acceleration of an arm
-//! jumps, and what passes quickly is touched for a moment. Root, pelvis and legs do not depend on it.
+//! than under the shoulder. Between two sides that leave too little room it comes to rest nearer to the one that counts
+//! less. All turns follow by a filter of the third order: neither rate nor acceleration of an arm jumps, and what passes
+//! quickly is touched for a moment. Root, pelvis and legs do not depend on it.
 //!
 //! Frame of the drawn body (x forward, y left, z up), metres, radians.
 
@@ -13,7 +14,7 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::maths::angle::rotation;
-use crate::planning::elbow_room::{ElbowRoom, RoomSide};
+use crate::planning::elbow_room::{ElbowRoom, RoomSide, SIDES_MAX};
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::lean::incline::tilt_trunk;
 
@@ -22,6 +23,8 @@ const TILT_MAX_RAD: f32 = 0.16;
 /// Overlap with the border of the room from which on a body yields by the whole of it, m. It begins to yield as far before
 /// the border, so that it moves without a jerk.
 const SOFT_M: f32 = 0.06;
+/// Rounds in which a turn yields to all sides, one after the other: to yield to one may lead beyond another.
+const ROUNDS: usize = 4;
 /// Turn below which a body without walls and bodies near by is left unchanged, rad; likewise its rates.
 const STILL_RAD: f32 = 1e-4;
 /// The joints from the foot of the spine to each hand, `[left, right]`.
@@ -127,17 +130,24 @@ impl PosedArm {
 /// The turn about a joint that brings points within the room, a vector along its horizontal axis, rad.
 fn turn_rad<const N: usize>(joint_m: Vec3, points: [RoundPoint; N], room: &ElbowRoom) -> Vec3 {
     let mut turn_rad = Vec3::ZERO;
-    for side in room.sides() {
-        let towards = side.towards.extend(0.0);
+    let mut yielded_rad = [0.0_f32; SIDES_MAX];
+    for index in (0..ROUNDS).flat_map(|_| 0..room.sides().len()) {
+        let (side, yielded_rad) = (&room.sides()[index], &mut yielded_rad[index]);
+        let (towards, turn) = (side.towards.extend(0.0), rotation(turn_rad));
         let mut greatest_rad = 0.0_f32;
         for RoundPoint { centre_m, radius_m } in points {
-            let offset_m = centre_m - joint_m + turn_rad.cross(centre_m - joint_m);
+            let arm_m = centre_m - joint_m;
+            let offset_m = turn * arm_m;
             let yielded_m = yielded_m(side, (joint_m + offset_m).truncate(), radius_m);
             let angle_rad = back_rad(towards.dot(offset_m), offset_m.z, yielded_m);
-            if angle_rad.abs() > greatest_rad.abs() {
+            // From one side all points turn in one sense, over the joint or under it; a point that another one has
+            // brought past the joint does not count.
+            let turns_so = angle_rad * *yielded_rad >= 0.0 && offset_m.z * arm_m.z >= 0.0;
+            if turns_so && angle_rad.abs() > greatest_rad.abs() {
                 greatest_rad = angle_rad;
             }
         }
+        *yielded_rad += greatest_rad;
         turn_rad += greatest_rad * towards.cross(Vec3::Z);
     }
     turn_rad

@@ -1,7 +1,10 @@
-//! Squeeze: a body turns its shoulders in a narrow gap, and holds its arms still. `FbCrowd` does not have it.
+//! Squeeze: a body turns its shoulders where there is little room beside them, and holds its arms still. `FbCrowd` does
+//! not have it.
 //!
 //! People turn their shoulders in gaps below 1.3 times their breadth (Warren and Whang 1987, *J. Exp. Psychol.: Hum.
-//! Percept. Perform.* 13, 371–383), so that they keep that room. With the gap A and the breadth S,
+//! Percept. Perform.* 13, 371–383), so that they keep that room. A body does so in the gap that it walks through
+//! ([`crate::planning::gap`]), and where walls and bodies leave it as little elbow room ([`crate::planning::elbow_room`]).
+//! With the width A of the narrower one and the breadth S,
 //!
 //! ```text
 //! cos ψ = A/(1.3·S),   ψ ≤ 45°.
@@ -20,7 +23,7 @@ use crate::synthesis::TimeStep;
 use crate::synthesis::pose::upper_body::yaw_limit::within_limits_rad;
 use crate::synthesis::traits::{ARMS, swung};
 
-/// Gap, divided by the breadth of the shoulders, below which shoulders turn.
+/// Width, divided by the breadth of the shoulders, below which shoulders turn.
 const WIDE: f32 = 1.3;
 /// Greatest turn of the shoulders, rad.
 const ANGLE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
@@ -49,16 +52,17 @@ pub(crate) struct Squeeze {
 }
 
 impl Squeeze {
-    /// Follows a gap over one step: the distances to its left and right end, m.
-    pub(crate) fn follow(&mut self, gap_m: Option<[f32; 2]>, breadth_m: f32, step: &TimeStep) {
-        let target_rad = gap_m.map_or(0.0, |[left_m, right_m]| {
-            if self.angle_rad[0].abs() < KEPT_RAD {
-                self.left_first = left_m < right_m;
-            }
-            let size_rad = libm::acosf(((left_m + right_m) / (WIDE * breadth_m)).min(1.0)).min(ANGLE_MAX_RAD);
-            if self.left_first { -size_rad } else { size_rad }
-        });
-        step.squeeze.approach(&mut self.angle_rad, target_rad);
+    /// Follows over one step the narrower of the gap that the body walks through, if any, and the elbow room: the
+    /// distances to the left and right end of each, m.
+    pub(crate) fn follow(&mut self, gap_m: Option<[f32; 2]>, room_m: [f32; 2], breadth_m: f32, step: &TimeStep) {
+        let width_m = |ends_m: &[f32; 2]| ends_m[0] + ends_m[1];
+        let ends_m = gap_m.filter(|gap_m| width_m(gap_m) < width_m(&room_m)).unwrap_or(room_m);
+        if self.angle_rad[0].abs() < KEPT_RAD {
+            self.left_first = ends_m[0] < ends_m[1];
+        }
+        let share = (width_m(&ends_m) / (WIDE * breadth_m)).clamp(0.0, 1.0);
+        let size_rad = libm::acosf(share).min(ANGLE_MAX_RAD);
+        step.squeeze.approach(&mut self.angle_rad, if self.left_first { -size_rad } else { size_rad });
     }
 
     /// Turns the shoulders of a pose, and stills its arms about their means in the base walk.
@@ -95,17 +99,29 @@ mod tests {
     use super::*;
     use crate::test_db::test_db;
 
-    /// Turn of the shoulders after a second in a gap, divided by the breadth, degrees.
-    fn turned_deg(width: f32) -> f32 {
+    /// Wide elbow room, m.
+    const OPEN_M: [f32; 2] = [0.5; 2];
+
+    /// Turn of the shoulders after a second in a gap and in elbow room of widths, divided by the breadth, degrees.
+    fn turned_deg(gap: Option<f32>, room: f32) -> f32 {
         let (mut squeeze, step) = (Squeeze::default(), TimeStep::new(1.0 / 60.0));
-        (0..60).for_each(|_| squeeze.follow(Some([0.25 * width, 0.25 * width]), 0.5, &step));
+        let ends_m = |width: f32| [0.25 * width; 2];
+        (0..60).for_each(|_| squeeze.follow(gap.map(ends_m), ends_m(room), 0.5, &step));
         squeeze.angle_rad[0].abs().to_degrees()
     }
 
     #[test]
     fn shoulders_turn_in_gaps_below_1_3_breadths() {
-        assert!(turned_deg(1.0) > 30.0 && turned_deg(0.8) <= 45.01, "{} {}", turned_deg(1.0), turned_deg(0.8));
-        assert!(turned_deg(1.2) > 10.0 && turned_deg(1.5) < 0.1, "{} {}", turned_deg(1.2), turned_deg(1.5));
+        for turned_deg in [|width| turned_deg(Some(width), 2.0), |width| turned_deg(None, width)] {
+            assert!(turned_deg(1.0) > 30.0 && turned_deg(0.8) <= 45.01, "{} {}", turned_deg(1.0), turned_deg(0.8));
+            assert!(turned_deg(1.2) > 10.0 && turned_deg(1.5) < 0.1, "{} {}", turned_deg(1.2), turned_deg(1.5));
+        }
+    }
+
+    #[test]
+    fn the_narrower_of_gap_and_elbow_room_counts() {
+        assert_eq!(turned_deg(Some(1.0), 2.0), turned_deg(Some(1.2), 1.0));
+        assert_eq!(turned_deg(Some(1.0), 2.0), turned_deg(None, 1.0));
     }
 
     #[test]
@@ -113,8 +129,8 @@ mod tests {
         let step = TimeStep::new(1.0 / 60.0);
         for (gap_m, sign) in [([0.2, 0.25], -1.0), ([0.25, 0.2], 1.0)] {
             let mut squeeze = Squeeze::default();
-            (0..40).for_each(|_| squeeze.follow(Some(gap_m), 0.5, &step));
-            (0..40).for_each(|_| squeeze.follow(Some([gap_m[1], gap_m[0]]), 0.5, &step));
+            (0..40).for_each(|_| squeeze.follow(Some(gap_m), OPEN_M, 0.5, &step));
+            (0..40).for_each(|_| squeeze.follow(Some([gap_m[1], gap_m[0]]), OPEN_M, 0.5, &step));
             assert!(sign * squeeze.angle_rad[0] > 0.3, "{gap_m:?}: {squeeze:?}");
         }
     }
