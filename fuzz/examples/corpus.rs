@@ -32,8 +32,10 @@ fn main() {
     let recording = corpus.join("recording/two.fbrec");
     record(&recording);
     unzip(&recording, &corpus.join("recording/texts.fbrec"));
-    let version_1 = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/sim/tests/golden/version_1.fbrec");
-    write("recording/version_1.fbrec", &fs::read(version_1).expect("the golden recording can be read"));
+    for name in ["version_1.fbrec", "version_2.fbrec"] {
+        let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/sim/tests/golden").join(name);
+        write(&format!("recording/{name}"), &fs::read(golden).expect("the golden recording can be read"));
+    }
 }
 
 /// The first rows of a bundled clip.

@@ -64,7 +64,7 @@ pub struct Agents {
     pub route_memory: Vec<RouteMemory>,
     /// v_pref, m/s.
     pub preferred_mps: Vec<Vec2>,
-    /// Angle from v_pref to the preferred facing, rounded as it is recorded, rad.
+    /// Angle from v_pref to the direction of the route, which the agent faces, rounded as it is recorded, rad.
     pub facing_offsets_rad: Vec<f32>,
     /// Plan for the step.
     pub plans: Vec<Plan>,

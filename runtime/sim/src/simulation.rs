@@ -1,7 +1,8 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
 //! 0. behaviour (BFSM, §6): what each agent wants, where the scenario has states (`simulation/crowd_behaviour.rs`);
-//! 1. route: the preferred velocity of each agent, v_pref; before it, doors open and close (`simulation/moving_doors.rs`);
+//! 1. route: the preferred velocity of each agent, v_pref, and what it faces; before it, doors open and close
+//!    (`simulation/moving_doors.rs`);
 //! 2. neighbours: the agents near each agent;
 //! 3. planning (MCN, §4): v_pref becomes a velocity that satisfies the constraints of body, stance foot and crowd;
 //! 4. synthesis (HMS, §5): the body follows its plan;

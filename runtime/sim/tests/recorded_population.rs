@@ -1,5 +1,5 @@
-//! Recordings of agents that come and go: they come back as they were written, forged ones are rejected, and version 1
-//! is read.
+//! Recordings of agents that come and go: they come back as they were written, forged ones are rejected, and earlier
+//! versions are read.
 
 mod common;
 
@@ -15,6 +15,8 @@ use fbcrowd_sim::scenario::{AtGoal, DoorSpec, SourceSpec};
 use glam::Vec2;
 
 const DT_S: f32 = 0.25;
+const SLIDE_CM_S: f32 = 1.25;
+const FACING_OFFSET_RAD: f32 = 0.5;
 /// Ids of the agents in each frame: 1 leaves after two frames, 2 comes with the second and leaves before the last.
 const PRESENT: [&[u32]; 5] = [&[0, 1], &[0, 1, 2], &[0, 2], &[0, 2, 3, 4], &[0, 3, 4]];
 
@@ -62,6 +64,8 @@ fn frame(index: usize, ids: &[u32]) -> Vec<AgentFrame> {
     let walker = |&id: &u32| AgentFrame {
         id: AgentId(id),
         state: (id % 2) as u16,
+        examples_slide_cm_s: SLIDE_CM_S,
+        facing_offset_rad: FACING_OFFSET_RAD,
         ..standing_at(Vec2::new(DT_S * index as f32, 10.0 * id as f32))
     };
     ids.iter().map(walker).collect()
@@ -253,14 +257,18 @@ fn golden(version: u32) -> PathBuf {
 
 /// The files stay as the first programs of versions 2 and 3 wrote them, so that no key without a default is added.
 #[test]
-fn versions_2_and_3_are_read_alike() {
-    let [second, third] = [2, 3].map(|version| {
+fn versions_2_and_3_are_read() {
+    for (version, slide_cm_s, facing_offset_rad) in [(2, 0.0, 0.0), (3, SLIDE_CM_S, FACING_OFFSET_RAD)] {
         let recording = Recording::open(&golden(version)).unwrap();
         assert_eq!((recording.header(), recording.population()), (&wide_header(), &population(&wide_header())));
-        read_all(&golden(version)).unwrap()
-    });
-    assert_eq!(second.len(), PRESENT.len());
-    assert_eq!(second, third);
+        let frames = read_all(&golden(version)).unwrap();
+        assert_eq!(frames.len(), PRESENT.len());
+        let is_close = |agent: &AgentFrame| {
+            let off = [agent.examples_slide_cm_s - slide_cm_s, agent.facing_offset_rad - facing_offset_rad];
+            off.iter().all(|off| off.abs() < 1e-4)
+        };
+        assert!(frames.iter().flatten().all(is_close), "version {version}: {:?}", frames[0][0]);
+    }
 }
 
 #[test]

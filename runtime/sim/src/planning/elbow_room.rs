@@ -66,17 +66,18 @@ impl ElbowRoom {
         self.count += 1;
     }
 
-    /// Width of the room on the left and on the right of a body that faces `forward`, m: at most [`REACH_M`] each.
-    pub(crate) fn widths_m(&self, forward: Vec2) -> [f32; 2] {
-        let mut widths_m = [REACH_M; 2];
+    /// Distances to the ends of the room on the left and on the right of a body that faces `forward`, m; none where a
+    /// side is free.
+    pub(crate) fn gap_m(&self, forward: Vec2) -> Option<[f32; 2]> {
+        let mut ends_m = [f32::INFINITY; 2];
         for side in self.sides() {
             let leftward = forward.perp_dot(side.towards);
             if leftward.abs() > BESIDE_COS {
-                let width_m = &mut widths_m[usize::from(leftward < 0.0)];
-                *width_m = width_m.min(side.distance_m / leftward.abs());
+                let end_m = &mut ends_m[usize::from(leftward < 0.0)];
+                *end_m = end_m.min(side.distance_m / leftward.abs());
             }
         }
-        widths_m
+        ends_m.iter().all(|end_m| end_m.is_finite()).then_some(ends_m)
     }
 
     /// The same in a frame at `origin_m` whose x axis is `forward`.
@@ -121,13 +122,16 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_ahead_does_not_make_the_room_narrow() {
+    fn a_gap_has_two_sides_beside_the_body() {
         let [left, ahead, right_ahead] = [[0.0, 0.3], [0.1, 0.0], [0.2, -0.2]].map(Vec2::from);
-        let widths_m = |points_m: &[Vec2]| ElbowRoom::ending_at(points_m.iter().copied()).widths_m(Vec2::X);
-        assert_eq!(widths_m(&[left, ahead]), [0.3, REACH_M]);
-        assert!((widths_m(&[right_ahead])[1] - 0.4).abs() < 1e-6, "the border crosses the line of the shoulders");
-        let turned = ElbowRoom::ending_at([left]).widths_m(Vec2::NEG_Y);
-        assert_eq!(turned, [REACH_M; 2], "behind a body that faces away from it");
+        let gap_m = |points_m: &[Vec2]| ElbowRoom::ending_at(points_m.iter().copied()).gap_m(Vec2::X);
+        assert_eq!([gap_m(&[left]), gap_m(&[left, ahead])], [None; 2]);
+        let [left_m, right_m] = gap_m(&[left, right_ahead]).unwrap();
+        assert!(
+            left_m == 0.3 && (right_m - 0.4).abs() < 1e-6,
+            "the border crosses the line of the shoulders: {right_m}"
+        );
+        assert_eq!(ElbowRoom::ending_at([left, right_ahead]).gap_m(Vec2::Y), None, "both lie ahead of this body");
     }
 
     #[test]

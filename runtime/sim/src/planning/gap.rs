@@ -13,8 +13,8 @@ use crate::planning::world_view::WorldView;
 
 /// Ends of the strip along the direction of travel, m.
 const STRIP_M: [f32; 2] = [-0.2, 0.5];
-/// Least speed at which an agent passes walls and other agents, m/s. Agents that walk side by side, and those of a
-/// queue, turn no shoulders.
+/// Least speed at which an agent passes walls and other agents, m/s. For those that walk side by side, and in queues, the
+/// elbow room counts.
 const SPEED_MIN_MPS: f32 = 0.4;
 /// Greatest distance to either side, m: wider gaps turn no shoulders.
 const ASIDE_MAX_M: f32 = 0.8;

@@ -74,7 +74,7 @@ pub struct WorldView<'a> {
     pub wall_radii_m: &'a [f32],
     /// v_pref, m/s.
     pub preferred_mps: &'a [Vec2],
-    /// Angles from v_pref to the preferred facing, counter-clockwise, rad.
+    /// Angles from v_pref to the direction of the route, which agents face, counter-clockwise, rad.
     pub facing_offsets_rad: &'a [f32],
     /// How each body stands.
     pub stances: &'a [Stance],
@@ -210,8 +210,8 @@ impl<'a> WorldView<'a> {
         self.preferred_mps[agent].normalize_or_zero()
     }
 
-    /// An agent's preferred velocity, turned to the facing that it prefers, m/s.
-    pub(crate) fn preferred_facing_mps(&self, agent: usize) -> Vec2 {
+    /// An agent's preferred velocity, turned to the direction of its route, m/s.
+    pub(crate) fn along_route_mps(&self, agent: usize) -> Vec2 {
         let (sin, cos) = libm::sincosf(self.facing_offsets_rad[agent]);
         Vec2::new(cos, sin).rotate(self.preferred_mps[agent])
     }

@@ -2,8 +2,8 @@
 
 /// Format version that is written; raised when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 3;
-/// The format version before, which is still read: bodies face along their preferred velocities.
-pub const FORMAT_VERSION_2: u32 = 2;
+/// The format version before, which is still read: agents want to face where their preferred velocities lead.
+pub(crate) const FORMAT_VERSION_2: u32 = 2;
 /// The first format version, which is still read: the same agents in all frames.
 pub const FORMAT_VERSION_1: u32 = 1;
 /// First bytes of every recording.

@@ -19,7 +19,7 @@ pub struct AgentFrame {
     pub root: Root,
     /// v_pref, world, m/s.
     pub preferred_mps: Vec2,
-    /// Angle from v_pref to the preferred facing, counter-clockwise, rad.
+    /// Angle from v_pref to the direction of the route, which the agent faces, counter-clockwise, rad.
     pub facing_offset_rad: f32,
     /// Velocity planned for the step that led to this frame, world, m/s.
     pub planned_mps: Vec2,

@@ -5,8 +5,8 @@
 //! | 12 | root x, y, facing: f32 |
 //! | 16 | v_pref, planned velocity: f32 each |
 //! | 12 | phase, strafing time, stepping-back time: f32 |
-//! | 2 | examples' slide: u16, in 0.01 cm/s |
-//! | 2 | angle from v_pref to the preferred facing: i16, in π/32767 |
+//! | 2 | examples' slide: u16, in 0.01 cm/s; of more than 655 cm/s, 655.35 |
+//! | 2 | angle from v_pref to the direction of the route: i16, in π/32767 |
 //! | 4 | contacts left, right: u16, in 1/65535 |
 //! | 3 | time to landing: the upper 24 bits of an f32 that has lost its sign (1/131,072 of it a step) |
 //! | 1 | bit 0 velocity set, bits 1–7 mode |
@@ -102,7 +102,7 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     Some(())
 }
 
-/// The angle from v_pref to the preferred facing as a recording keeps it, rad.
+/// The angle from v_pref to the direction of the route as a recording keeps it, rad.
 pub(crate) fn recorded_offset_rad(offset_rad: f32) -> f32 {
     angle_rad(angle_steps(offset_rad))
 }
@@ -131,8 +131,8 @@ pub(crate) fn unpack_version_2(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
     unpack_with(bytes, |rest| Ok([take_f32(rest)?, 0.0]))
 }
 
-/// As [`unpack`]; `take_slide_and_offset` takes the examples' slide, cm/s, and the angle from v_pref to the preferred
-/// facing, rad.
+/// As [`unpack`]; `take_slide_and_offset` takes the examples' slide, cm/s, and the angle from v_pref to the direction of
+/// the route, rad.
 fn unpack_with(
     bytes: &[u8],
     take_slide_and_offset: impl Fn(&mut &[u8]) -> Result<[f32; 2], FrameFault>,
@@ -267,6 +267,15 @@ mod tests {
     fn the_resting_body_comes_back_unchanged() {
         let frame = AgentFrame::default();
         assert_eq!(round_trip(&frame), frame);
+    }
+
+    #[test]
+    fn earlier_versions_held_the_slide_alone() {
+        let frame = AgentFrame { phase: 0.25, facing_offset_rad: 0.5, ..AgentFrame::default() };
+        let mut bytes = packed(&frame);
+        bytes[40..44].copy_from_slice(&1.25_f32.to_le_bytes());
+        let expected = AgentFrame { facing_offset_rad: 0.0, examples_slide_cm_s: 1.25, ..frame };
+        assert_eq!(unpack_version_2(&bytes), Ok(expected));
     }
 
     #[test]

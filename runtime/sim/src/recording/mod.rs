@@ -40,7 +40,7 @@ pub(crate) mod zipped_json;
 
 pub use chunk::write_chunk;
 pub use error::RecordingError;
-pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1, FORMAT_VERSION_2};
+pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1};
 pub use frame::AgentFrame;
 pub use frame_packing::{FrameFault, PACKED_BYTES, unpack};
 pub use header::{Header, RecordedCharacter, RecordedDatabase, RecordedExtraJoint};

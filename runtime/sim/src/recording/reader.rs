@@ -119,7 +119,10 @@ impl Recording {
             return self.read_frame_of_version_1(index, byte, &payload, agents);
         }
         let rows = self.rows(index, byte, &payload, ROW_BYTES)?;
-        let unpack = if self.frames.version == FORMAT_VERSION_2 { unpack_version_2 } else { unpack };
+        let unpack = match self.frames.version {
+            FORMAT_VERSION_2 => unpack_version_2,
+            _ => unpack,
+        };
         for row in rows.chunks_exact(ROW_BYTES) {
             let agent = agents.len();
             let at_agent = |fault| RecordingError::Frame { path: path(), byte, frame: index, agent, fault };

@@ -1,11 +1,12 @@
 //! Any step of a recording as the planner saw it: a recording is complete enough to plan each step again.
 //!
 //! Step k leads from frame k to frame k + 1. Positions, facings, strafing times and the stance foot are frame k's,
-//! velocities those that led to it; v_pref and the preferred facing, which the step itself computes, are in frame k + 1. Everything but the
-//! stance foot is kept bit for bit. The stance foot comes from a packed pose and time to landing, so where it decides,
-//! their rounding does too (a tenth of a millimetre at the sole, some mm/s of the plan). The velocity to which a body
-//! is committed on the paper's transition between syntheses (`transition = "through_m_mb"`) is not recorded; the actual
-//! velocity stands in for it. World axes, metres, seconds, radians.
+//! velocities those that led to it; v_pref and the direction of the route, which the step itself computes, are in
+//! frame k + 1. Everything but the stance foot is kept bit for bit. The stance foot comes from a packed pose and time to
+//! landing, so where it decides, their rounding does too (a tenth of a millimetre at the sole, some mm/s of the plan).
+//! The velocity to which a body is committed on the paper's transition between syntheses
+//! (`transition = "through_m_mb"`) is not recorded; the actual velocity stands in for it. World axes, metres, seconds,
+//! radians.
 
 use std::sync::Arc;
 

@@ -1,11 +1,12 @@
 //! Routes: from an agent's goals to its preferred velocity (`FbCrowd` §3). The route is stage 1 of a step.
 //!
-//! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
+//! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, the direction that the agent faces, and
+//! whether it has arrived.
 //!
 //! Read `polygons` (free space), [`mesh`] (its triangles) and [`field`] (shortest routes over it); then `crowd_routes`
 //! (the routes of all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path`
-//! (v_pref along waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and closed
-//! passages before a simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
+//! (v_pref and facing along waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and
+//! closed passages before a simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};

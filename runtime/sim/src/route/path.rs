@@ -1,4 +1,4 @@
-//! v_pref along an agent's waypoints (`FbCrowd` §3): the route, stage 1 of a step.
+//! v_pref and facing along an agent's waypoints (`FbCrowd` §3): the route, stage 1 of a step.
 //!
 //! An agent walks to its next waypoint by the shortest route at its preferred speed, turns towards the one after as it
 //! comes near, brakes evenly before the last one and stays there. Crowds push: an agent pushed past a waypoint goes on,
@@ -123,20 +123,20 @@ pub(crate) struct Walker {
 pub struct PreferredMotion {
     /// v_pref, m/s.
     pub velocity_mps: Vec2,
-    /// Angle from v_pref to the preferred facing, counter-clockwise, rad: 0, unless the agent goes back off a wall and
-    /// faces along its route.
+    /// Angle from v_pref to the direction of the route, which the agent faces, counter-clockwise, rad: 0, except
+    /// rounding, unless the agent goes back off a wall.
     pub facing_offset_rad: f32,
 }
 
 impl PreferredMotion {
-    /// The motion of an agent that faces where it goes, m/s.
+    /// The motion of an agent that faces where it goes, given v_pref, m/s.
     pub fn ahead(velocity_mps: Vec2) -> Self {
         Self { velocity_mps, facing_offset_rad: 0.0 }
     }
 
     fn along(heading: Heading, speed_mps: f32) -> Self {
-        let Heading { direction, onwards } = heading;
-        let facing_offset_rad = libm::atan2f(direction.perp_dot(onwards), direction.dot(onwards));
+        let Heading { direction, facing } = heading;
+        let facing_offset_rad = libm::atan2f(direction.perp_dot(facing), direction.dot(facing));
         Self { velocity_mps: direction * speed_mps, facing_offset_rad }
     }
 }

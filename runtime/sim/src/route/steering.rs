@@ -32,7 +32,7 @@ pub(crate) struct Heading {
     /// Direction of v_pref.
     pub(crate) direction: Vec2,
     /// Direction of the route, which the agent faces.
-    pub(crate) onwards: Vec2,
+    pub(crate) facing: Vec2,
 }
 
 /// The heading of an agent around walls; none where its waypoint is in sight.
@@ -47,15 +47,15 @@ pub(crate) fn heading(
     obstacles: &Obstacles,
 ) -> Option<Heading> {
     let from_m = next.entry_m.unwrap_or(position_m);
-    let onwards = match next.after_m {
+    let facing = match next.after_m {
         Some(after_m) => {
             turning(from_m, RouteCorner { corner_m: next.corner_m, after_m }, keep, wall_radius_m, obstacles)
         }
         None if next.entry_m.is_none() || next.distance_m < NEAR_M => return None,
         None => (next.corner_m - from_m).normalize_or_zero(),
     };
-    let direction = (RETURN_M * onwards + (from_m - position_m)).normalize_or(onwards);
-    Some(Heading { direction, onwards })
+    let direction = (RETURN_M * facing + (from_m - position_m)).normalize_or(facing);
+    Some(Heading { direction, facing })
 }
 
 /// Distance from a corner within which an agent turns along the route beyond, m: one that a crowd holds beside the

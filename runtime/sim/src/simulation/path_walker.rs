@@ -1,4 +1,4 @@
-//! Stage 1 of a step for one agent: what its state wants, or its own waypoints, becomes v_pref and the preferred facing. World, metres.
+//! Stage 1 of a step for one agent: what its state wants, or its own waypoints, becomes v_pref and facing. World, metres.
 
 use glam::Vec2;
 

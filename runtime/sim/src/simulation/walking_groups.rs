@@ -123,6 +123,7 @@ impl Simulation {
             let aside_mps = aside_mps.clamp(-SIDE_SHARE_MAX * speed_mps, SIDE_SHARE_MAX * speed_mps);
             let velocity_mps = walker.direction * along * speed_mps + forward.perp() * aside_mps;
             self.agents.preferred_mps[walker.index] = velocity_mps * walker.speed_share;
+            // Members face where they walk.
             self.agents.facing_offsets_rad[walker.index] = 0.0;
         }
     }

@@ -20,8 +20,12 @@ impl Simulation {
         if self.one_way.is_empty() {
             return;
         }
-        for (preferred_mps, position_m) in agents.preferred_mps.iter_mut().zip(&agents.positions_m) {
-            *preferred_mps = not_against_mps(&self.one_way, *position_m, *preferred_mps);
+        let preferred = agents.preferred_mps.iter_mut().zip(&mut agents.facing_offsets_rad);
+        for ((preferred_mps, facing_offset_rad), position_m) in preferred.zip(&agents.positions_m) {
+            let allowed_mps = not_against_mps(&self.one_way, *position_m, *preferred_mps);
+            if allowed_mps != *preferred_mps {
+                (*preferred_mps, *facing_offset_rad) = (allowed_mps, 0.0);
+            }
         }
     }
 }

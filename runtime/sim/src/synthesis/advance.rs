@@ -71,7 +71,7 @@ impl Body {
         let drawn = motion.drawn_parameters(&context.db);
         lean.follow(drawn, motion.played_leans_rad(context), step);
         let walking = drawn.velocity_mps().length() / context.base_mps;
-        squeeze.follow(plan.gap_m, plan.room.widths_m(root.forward()), context.shoulder_breadth_m, step);
+        squeeze.follow([plan.gap_m, plan.room.gap_m(root.forward())], context.shoulder_breadth_m, step);
         secondary.follow(motion.phase, advanced, walking, step);
     }
 }

@@ -19,7 +19,7 @@
 //! 8. `active_motion`: blending, semi-procedural locomotion or a recorded transition gives a posture, to which the pose
 //!    offset is added;
 //! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
-//!    chest turn; shoulders turn in gaps; the body leans;
+//!    chest turn; shoulders turn where room is narrow; the body leans;
 //! 10. `weight_shift`, `foot_lock`, `pelvis`: the weight shifts before a first step; planted feet are locked, and the
 //!     pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet;

@@ -41,8 +41,8 @@ const BODY_LEAN_RATE_HZ: f32 = 10.0;
 /// Rate of the filter that shifts the weight before a first step (`weight_shift`), 1/s: within 0.3 s the pelvis makes
 /// four fifths of the shift.
 const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
-/// Rate of the filter that turns the shoulders in a gap (`squeeze`), 1/s: four fifths of the turn are made in 0.45 s,
-/// in which a walking body passes the strip of half a metre ahead.
+/// Rate of the filter that turns the shoulders where room is narrow (`squeeze`), 1/s: four fifths of the turn are made in
+/// 0.45 s, in which a walking body passes the strip of half a metre ahead.
 const SQUEEZE_RATE_HZ: f32 = 10.0;
 /// Rate of the filter by which the upper body keeps clear of walls and bodies (`body_clearance`), 1/s: it lags by 0.1 s.
 const CLEARANCE_RATE_HZ: f32 = 30.0;

@@ -129,7 +129,7 @@ fn of_stance(world: &WorldView, agent: usize, params: &McnParams) -> Option<Half
 fn orient(world: &WorldView, agent: usize, velocity_mps: Vec2, params: &McnParams, memory: &McnMemory) -> Orientation {
     let input = OrientationInput {
         forward: memory.forward,
-        preferred_mps: world.preferred_facing_mps(agent),
+        preferred_mps: world.along_route_mps(agent),
         velocity_mps,
         strafing_s: world.strafing_s[agent],
         stepping_back_s: world.stepping_back_s[agent],

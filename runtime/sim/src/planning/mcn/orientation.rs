@@ -13,8 +13,8 @@
 //! facing would flicker. Where v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or
 //! behind turns on the spot.
 //!
-//! Where an agent prefers another facing than that of its v_pref, because it goes back off a wall
-//! (`route::steering`), v_pref means the velocity that is turned to that facing.
+//! Where v_pref leads back off a wall (`route::steering`), here it means the velocity that is turned to the direction of
+//! the route, which the agent faces.
 //!
 //! World axes, m/s, seconds.
 
@@ -45,7 +45,7 @@ const REST_S: f32 = 1.0;
 pub(crate) struct OrientationInput {
     /// Unit vector along the present facing.
     pub(crate) forward: Vec2,
-    /// v_pref, turned to the preferred facing, m/s.
+    /// v_pref, turned to the direction of the route, m/s.
     pub(crate) preferred_mps: Vec2,
     /// v_i as found so far, m/s.
     pub(crate) velocity_mps: Vec2,

@@ -20,10 +20,11 @@ use crate::synthesis::pose::lean::incline::tilt_trunk;
 
 /// Greatest tilt of the trunk, rad (9°).
 const TILT_MAX_RAD: f32 = 0.16;
-/// Overlap with the border of the room from which on a body yields by the whole of it, m. It begins to yield as far before
-/// the border, so that it moves without a jerk.
+/// Overlap with the border of the room from which on a body yields by the whole of it in a round, m. It begins to yield
+/// as far before the border, so that it moves without a jerk.
 const SOFT_M: f32 = 0.06;
-/// Rounds in which a turn yields to all sides, one after the other: to yield to one may lead beyond another.
+/// Rounds in which a turn yields to all sides, one after the other: to yield to one may lead beyond another. Beside a
+/// single side a body at the border comes in by 3 cm so, instead of 1.5.
 const ROUNDS: usize = 4;
 /// Turn below which a body without walls and bodies near by is left unchanged, rad; likewise its rates.
 const STILL_RAD: f32 = 1e-4;

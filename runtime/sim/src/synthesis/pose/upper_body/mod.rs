@@ -3,8 +3,8 @@
 //! Enters: a pose, and what each part follows. Leaves: the pose.
 //!
 //! `curve_look` turns the head of a clip out of the clip's curve. `look_at` turns head and chest, `squeeze` the shoulders
-//! in narrow gaps, both as far as `yaw_limit` allows. `secondary_motion` moves head, forearms and hands. Last, after the
-//! legs, `body_clearance` keeps trunk and arms out of walls and other bodies.
+//! where room is narrow, both as far as `yaw_limit` allows. `secondary_motion` moves head, forearms and hands. Last,
+//! after the legs, `body_clearance` keeps trunk and arms out of walls and other bodies.
 
 pub(crate) mod body_clearance;
 pub(crate) mod curve_look;

@@ -52,17 +52,20 @@ pub(crate) struct Squeeze {
 }
 
 impl Squeeze {
-    /// Follows over one step the narrower of the gap that the body walks through, if any, and the elbow room: the
-    /// distances to the left and right end of each, m.
-    pub(crate) fn follow(&mut self, gap_m: Option<[f32; 2]>, room_m: [f32; 2], breadth_m: f32, step: &TimeStep) {
-        let width_m = |ends_m: &[f32; 2]| ends_m[0] + ends_m[1];
-        let ends_m = gap_m.filter(|gap_m| width_m(gap_m) < width_m(&room_m)).unwrap_or(room_m);
-        if self.angle_rad[0].abs() < KEPT_RAD {
-            self.left_first = ends_m[0] < ends_m[1];
-        }
-        let share = (width_m(&ends_m) / (WIDE * breadth_m)).clamp(0.0, 1.0);
-        let size_rad = libm::acosf(share).min(ANGLE_MAX_RAD);
-        step.squeeze.approach(&mut self.angle_rad, if self.left_first { -size_rad } else { size_rad });
+    /// Follows over one step the narrower of two gaps, that which the body walks through and its elbow room: the
+    /// distances to the left and right end of each, m; none where there is none.
+    pub(crate) fn follow(&mut self, gaps_m: [Option<[f32; 2]>; 2], breadth_m: f32, step: &TimeStep) {
+        let width_m = |[left_m, right_m]: &[f32; 2]| left_m + right_m;
+        let narrower_m = gaps_m.into_iter().flatten().min_by(|a, b| width_m(a).total_cmp(&width_m(b)));
+        let target_rad = narrower_m.map_or(0.0, |gap_m| {
+            if self.angle_rad[0].abs() < KEPT_RAD {
+                self.left_first = gap_m[0] < gap_m[1];
+            }
+            let share = (width_m(&gap_m) / (WIDE * breadth_m)).clamp(0.0, 1.0);
+            let size_rad = libm::acosf(share).min(ANGLE_MAX_RAD);
+            if self.left_first { -size_rad } else { size_rad }
+        });
+        step.squeeze.approach(&mut self.angle_rad, target_rad);
     }
 
     /// Turns the shoulders of a pose, and stills its arms about their means in the base walk.
@@ -99,29 +102,27 @@ mod tests {
     use super::*;
     use crate::test_db::test_db;
 
-    /// Wide elbow room, m.
-    const OPEN_M: [f32; 2] = [0.5; 2];
-
-    /// Turn of the shoulders after a second in a gap and in elbow room of widths, divided by the breadth, degrees.
-    fn turned_deg(gap: Option<f32>, room: f32) -> f32 {
+    /// Turn of the shoulders after a second between gaps of widths, divided by the breadth, degrees.
+    fn turned_deg(widths: [Option<f32>; 2]) -> f32 {
         let (mut squeeze, step) = (Squeeze::default(), TimeStep::new(1.0 / 60.0));
-        let ends_m = |width: f32| [0.25 * width; 2];
-        (0..60).for_each(|_| squeeze.follow(gap.map(ends_m), ends_m(room), 0.5, &step));
+        let gaps_m = widths.map(|width| width.map(|width| [0.25 * width; 2]));
+        (0..60).for_each(|_| squeeze.follow(gaps_m, 0.5, &step));
         squeeze.angle_rad[0].abs().to_degrees()
     }
 
     #[test]
     fn shoulders_turn_in_gaps_below_1_3_breadths() {
-        for turned_deg in [|width| turned_deg(Some(width), 2.0), |width| turned_deg(None, width)] {
-            assert!(turned_deg(1.0) > 30.0 && turned_deg(0.8) <= 45.01, "{} {}", turned_deg(1.0), turned_deg(0.8));
-            assert!(turned_deg(1.2) > 10.0 && turned_deg(1.5) < 0.1, "{} {}", turned_deg(1.2), turned_deg(1.5));
-        }
+        let [wider, gap, narrow, narrowest] = [1.5, 1.2, 1.0, 0.8].map(|width| turned_deg([Some(width), None]));
+        assert!(wider < 0.1 && gap > 10.0 && narrow > 30.0 && narrowest <= 45.01, "{wider} {gap} {narrow} {narrowest}");
     }
 
     #[test]
     fn the_narrower_of_gap_and_elbow_room_counts() {
-        assert_eq!(turned_deg(Some(1.0), 2.0), turned_deg(Some(1.2), 1.0));
-        assert_eq!(turned_deg(Some(1.0), 2.0), turned_deg(None, 1.0));
+        let narrow_deg = turned_deg([Some(1.0), None]);
+        for widths in [[None, Some(1.0)], [Some(1.0), Some(1.2)], [Some(1.2), Some(1.0)]] {
+            assert_eq!(turned_deg(widths), narrow_deg, "{widths:?}");
+        }
+        assert_eq!(turned_deg([None; 2]), 0.0);
     }
 
     #[test]
@@ -129,8 +130,8 @@ mod tests {
         let step = TimeStep::new(1.0 / 60.0);
         for (gap_m, sign) in [([0.2, 0.25], -1.0), ([0.25, 0.2], 1.0)] {
             let mut squeeze = Squeeze::default();
-            (0..40).for_each(|_| squeeze.follow(Some(gap_m), OPEN_M, 0.5, &step));
-            (0..40).for_each(|_| squeeze.follow(Some([gap_m[1], gap_m[0]]), OPEN_M, 0.5, &step));
+            (0..40).for_each(|_| squeeze.follow([Some(gap_m), None], 0.5, &step));
+            (0..40).for_each(|_| squeeze.follow([Some([gap_m[1], gap_m[0]]), None], 0.5, &step));
             assert!(sign * squeeze.angle_rad[0] > 0.3, "{gap_m:?}: {squeeze:?}");
         }
     }
