@@ -35,7 +35,8 @@ pub struct RoomSide {
 }
 
 impl ElbowRoom {
-    /// The room whose sides end at points, relative to the agent's centre, world axes, m; the later count more.
+    /// The room whose sides end at points, relative to the agent's centre, world axes, m: the nearest eight, the later of
+    /// which count more.
     pub fn ending_at(points_m: impl IntoIterator<Item = Vec2>) -> Self {
         let mut room = Self::default();
         points_m.into_iter().for_each(|point_m| room.end_at(point_m));

@@ -17,7 +17,7 @@
 //! their steps add up to foot slide: with 15 bits and a 16-bit pelvis a held sole jitters by 0.5 cm/s at 120 frames a
 //! second, packed so by less than 0.1 cm/s.
 //!
-//! Before version 3 the slide was an f32, and no angle was kept.
+//! Before version 3 the slide was an f32 in the four bytes of slide and angle.
 
 use std::f32::consts::PI;
 
@@ -39,9 +39,9 @@ pub const PACKED_BYTES: usize =
 const PELVIS_RANGE_M: f32 = 4.0;
 /// Steps of the pelvis on either side of zero: 24 bits.
 const PELVIS_STEPS: f32 = 8_388_607.0;
-/// Steps of a slide in 1 cm/s.
+/// Steps of a slide of 1 cm/s.
 const SLIDE_STEPS: f32 = 100.0;
-/// Steps of an angle in π: 16 bits with the sign.
+/// Steps of an angle of π: 15 bits and the sign.
 const ANGLE_STEPS: f32 = 32_767.0;
 /// Steps of a contact: 16 bits.
 const CONTACT_STEPS: f32 = 65_535.0;

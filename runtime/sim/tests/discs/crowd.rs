@@ -153,7 +153,7 @@ impl DiscCrowd {
             radii_m: &self.radii_m,
             wall_radii_m: &self.radii_m,
             preferred_mps: &preferred_mps,
-            facing_offsets_rad: &vec![0.0; self.agents.len()],
+            facing_offsets_rad: &vec![0.0; count],
             stances: &vec![Stance::default(); count],
             planned_mps: &planned_mps,
             strafing_s: &strafing_s,

@@ -4,9 +4,9 @@
 //! The trunk tilts about the foot of the spine as far as brings both shoulders within the elbow room
 //! ([`crate::planning::elbow_room`]), and no farther than people lean; the head keeps its orientation. Then each arm
 //! turns as a whole about its shoulder as far as brings elbow, wrist and finger tips within the room, and no farther
-//! than under the shoulder. Between two sides that leave too little room it comes to rest nearer to the one that counts
-//! less. All turns follow by a filter of the third order: neither rate nor acceleration of an arm jumps, and what passes
-//! quickly is touched for a moment. Root, pelvis and legs do not depend on it.
+//! than under the shoulder. Between two sides that leave too little room it comes to rest nearer to the first, so that
+//! walls, which come last, are kept to. All turns follow by a filter of the third order: neither rate nor acceleration
+//! of an arm jumps, and what passes quickly is touched for a moment. Root, pelvis and legs do not depend on it.
 //!
 //! Frame of the drawn body (x forward, y left, z up), metres, radians.
 
