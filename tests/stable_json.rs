@@ -118,7 +118,9 @@ fn measure_and_simulate_follow_their_schemas() {
     let outputs = ["--trajectories", text(&trajectories), "--table", text(&table)];
     let measures = fbcrowd(&[&["measure", text(&recording), "--json"], &outputs[..]].concat()).expect_code(0).json();
     check_schema("measure", &measures);
-    let people = fbcrowd(&["measure", text(&recording), "--people", "--json"]).expect_code(0).json();
+    let incidents = folder.join("incidents.csv");
+    let of_people = ["measure", text(&recording), "--people", "--json", "--incidents", text(&incidents)];
+    let people = fbcrowd(&of_people).expect_code(0).json();
     check_schema("measure-people", &people);
     let minutes = people["agent_minutes"].as_f64().unwrap();
     assert!((minutes - 31.0 / 30.0 / 60.0).abs() < 1e-3, "{minutes}");
@@ -128,7 +130,8 @@ fn measure_and_simulate_follow_their_schemas() {
     let table = fs::read_to_string(&table).unwrap();
     assert_eq!(table.lines().count(), 1 + 31);
     let documented = fs::read_to_string(repository().join("docs/measures.md")).unwrap();
-    let columns = table.lines().next().unwrap().split(',');
+    let incidents = fs::read_to_string(&incidents).unwrap();
+    let columns = [&table, &incidents].into_iter().flat_map(|table| table.lines().next().unwrap().split(','));
     let missing: Vec<&str> = columns.filter(|column| !documented.contains(&format!("`{column}`"))).collect();
     assert!(missing.is_empty(), "docs/measures.md lacks {missing:?}");
 }

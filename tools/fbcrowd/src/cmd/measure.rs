@@ -19,7 +19,7 @@ use crate::terminal::output;
 /// Measure collisions, acceleration, arrivals, detours, bodies' overlap, foot slide and tracking of a recording.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json\n  fbcrowd measure crossing.fbrec --table crossing.csv"
+    after_help = "Examples:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json\n  fbcrowd measure crossing.fbrec --table crossing.csv\n  fbcrowd measure crossing.fbrec --people --incidents moments.csv"
 )]
 pub(crate) struct Args {
     /// The recording.
@@ -40,6 +40,10 @@ pub(crate) struct Args {
     /// Measure only whether bodies move as people do, and differ as people do; docs/measures.md defines the measures.
     #[arg(long, conflicts_with_all = ["trajectories", "table", "plots", "fps"])]
     people: bool,
+    /// With `--people`: write the moments that are counted (lurches, shanks too near, turns), with agent and frames, as
+    /// CSV; docs/measures.md describes the columns.
+    #[arg(long, value_name = "OUT.csv", requires = "people")]
+    incidents: Option<PathBuf>,
     /// Measure only the slide of planted feet in frames at this rate, beside that of the recorded frames.
     #[arg(long, value_name = "RATE", conflicts_with_all = ["json", "trajectories", "table", "plots"])]
     fps: Option<f32>,
@@ -51,7 +55,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         return measure_shot(&recording, fps);
     }
     if args.people {
-        return measure_people(&recording, args.json);
+        return measure_people(args, &recording);
     }
     check_outputs(args, &recording)?;
     let measures = measures::measure(&recording)?;
@@ -72,10 +76,14 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-/// Prints the measures of people.
-fn measure_people(recording: &Recording, json: bool) -> Result<Answer, Failure> {
+/// Prints the measures of people, and writes their incidents.
+fn measure_people(args: &Args, recording: &Recording) -> Result<Answer, Failure> {
+    check_outputs(args, recording)?;
     let people = measures::people::measure_people(recording)?;
-    if json {
+    if let Some(path) = &args.incidents {
+        write(path, |out| measures::people::write_incidents(&people.incidents, out))?;
+    }
+    if args.json {
         output::print_json(&people)?;
     } else {
         output::print(&people_text::text(&people))?;
@@ -103,7 +111,7 @@ fn measure_shot(recording: &Recording, fps: f32) -> Result<Answer, Failure> {
 
 /// Checks that every output can be written, and replaces neither the recording nor another output.
 fn check_outputs(args: &Args, recording: &Recording) -> Result<(), Failure> {
-    for path in [&args.trajectories, &args.table].into_iter().flatten() {
+    for path in [&args.trajectories, &args.table, &args.incidents].into_iter().flatten() {
         check_is_no_input(path, [&args.recording])?;
         check_file(path)?;
     }

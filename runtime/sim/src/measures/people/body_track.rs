@@ -3,7 +3,7 @@
 //! World: metres, seconds, radians, x and y on the ground, z up. Pairs are `[left, right]`.
 
 use std::f32::consts::TAU;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{Joint, Joints, Skeleton};
@@ -108,6 +108,8 @@ fn shanks_apart(skeleton: &Skeleton, joints: &Joints) -> f32 {
 /// Frames of one body at equal intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyTrack {
+    /// Id of the agent; 0 of a body without one.
+    pub agent: usize,
     /// Time step, s.
     pub dt_s: f64,
     /// Time of the first sample after the start of the recording, s.
@@ -119,12 +121,17 @@ pub struct BodyTrack {
 impl BodyTrack {
     /// A body without frames.
     pub fn new(dt_s: f64, start_s: f64) -> Self {
-        Self { dt_s, start_s, samples: Vec::new() }
+        Self { agent: 0, dt_s, start_s, samples: Vec::new() }
     }
 
     /// Time of a sample after the start of the recording, s.
     pub fn time_s(&self, index: usize) -> f64 {
         self.start_s + index as f64 * self.dt_s
+    }
+
+    /// Frame of a sample in the recording.
+    pub fn frame(&self, index: usize) -> usize {
+        (self.start_s / self.dt_s).round() as usize + index
     }
 
     /// Number of samples in a duration, at least one.
@@ -187,14 +194,16 @@ pub(crate) fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<Range<usi
     found
 }
 
-/// Number of events: runs of frames that are at most `gap` frames apart count as one.
-pub(crate) fn event_count(frames: impl Iterator<Item = usize>, gap: usize) -> usize {
-    let (mut events, mut before) = (0, None);
-    for frame in frames {
-        events += usize::from(before.is_none_or(|before| frame > before + gap));
-        before = Some(frame);
+/// First and last of the indices of each incident: indices that are at most `gap` apart belong to one.
+pub(crate) fn spans(indices: impl Iterator<Item = usize>, gap: usize) -> Vec<RangeInclusive<usize>> {
+    let mut found: Vec<RangeInclusive<usize>> = Vec::new();
+    for index in indices {
+        match found.last_mut() {
+            Some(last) if index <= last.end() + gap => *last = *last.start()..=index,
+            _ => found.push(index..=index),
+        }
     }
-    events
+    found
 }
 
 /// Angles without jumps of 2π, rad.
@@ -267,9 +276,9 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn near_runs_are_one_event() {
+    fn near_runs_are_one_incident() {
         assert_eq!(runs(7, |index| index != 3 && index != 4), [0..3, 5..7]);
-        assert_eq!(event_count([1, 2, 3, 8, 9, 20].into_iter(), 5), 2);
-        assert_eq!(event_count(std::iter::empty(), 5), 0);
+        assert_eq!(spans([1, 2, 3, 8, 9, 20].into_iter(), 5), [1..=9, 20..=20]);
+        assert_eq!(spans(std::iter::empty(), 5), []);
     }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::measures::people::body_track::BodyTrack;
 use crate::measures::people::conduct::{QueueTally, Queues, Turning, TurningTally, UpperBodies, UpperBodyTally};
+use crate::measures::people::incident::Incident;
 use crate::measures::people::individuals::{
     CadenceSpread, Cadences, FirstStepTally, FirstSteps, PhaseOrder, PhaseOrders, StandingBodies, StandingTally,
 };
@@ -46,6 +47,9 @@ pub struct PeopleMeasures {
     pub foot_pivots: FootPivots,
     /// Slide of planted feet before arrival.
     pub slide: SoleSlide,
+    /// The moments that are counted above, in the order of agents and times.
+    #[serde(skip)]
+    pub incidents: Vec<Incident>,
 }
 
 /// Adds up the measures of bodies, one by one.
@@ -88,6 +92,9 @@ impl PeopleTally {
 
     /// The measures of all bodies, with the slide of their feet.
     pub fn finish(&self, slide: SoleSlide) -> PeopleMeasures {
+        let Self { pelvis_lurches, shank_gaps, turning, .. } = self;
+        let mut incidents = [&*pelvis_lurches.incidents, &shank_gaps.incidents, &turning.incidents].concat();
+        incidents.sort_by_key(|incident| (incident.agent, *incident.frames.start()));
         PeopleMeasures {
             agent_minutes: self.agent_minutes,
             phase_order: self.phase_orders.finish(),
@@ -104,6 +111,7 @@ impl PeopleTally {
             upper_bodies: self.upper_bodies.finish(),
             foot_pivots: self.foot_pivots.finish(),
             slide,
+            incidents,
         }
     }
 }

@@ -117,7 +117,8 @@ impl PeopleMeasuring {
         }
         let tracks = &mut self.tracks[slot];
         if is_moved || tracks.is_empty() {
-            tracks.push(BodyTrack::new(f64::from(self.dt_s), f64::from(self.steps) * f64::from(self.dt_s)));
+            let (dt_s, start_s) = (f64::from(self.dt_s), f64::from(self.steps) * f64::from(self.dt_s));
+            tracks.push(BodyTrack { agent: index, ..BodyTrack::new(dt_s, start_s) });
         }
         if let Some(track) = tracks.last_mut() {
             track.samples.push(BodySample::new(&skeleton, agent, &joints, has_arrived));

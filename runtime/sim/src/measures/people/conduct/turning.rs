@@ -4,14 +4,15 @@
 //! - To and fro: within 1.5 s the facing turns by more than 20° to one side and by more than 20° back.
 //! - Fast head: the direction of the head turns faster than 250 °/s, over 1/60 s (a time step where that is longer).
 //!
-//! Frames that are at most 0.6, 1.5 and 0.2 s apart are one event; per agent-minute before arrival. A recording does
+//! Frames that are at most 0.6, 1.5 and 0.2 s apart are one incident; per agent-minute before arrival. A recording does
 //! not say which glances a scenario commands.
 
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 
 use crate::maths::angle::angle_between_rad;
-use crate::measures::people::body_track::{BodyTrack, event_count};
+use crate::measures::people::body_track::BodyTrack;
+use crate::measures::people::incident::{Incident, IncidentKind};
 
 /// Angle of a sudden turn, rad, and its duration, s.
 const SUDDEN: (f64, f64) = (std::f64::consts::PI / 3.0, 0.6);
@@ -20,7 +21,7 @@ const TO_AND_FRO: (f64, f64) = (std::f64::consts::PI / 9.0, 1.5);
 /// Turn rate of a fast head, rad/s.
 const FAST_HEAD_RAD_S: f32 = 250.0 * std::f32::consts::PI / 180.0;
 /// Distance of frames in which one turn of the head is fast, s.
-const HEAD_EVENT_S: f64 = 0.2;
+const ONE_FAST_HEAD_S: f64 = 0.2;
 
 /// Turns of a crowd, per agent-minute before arrival; none of a crowd that has arrived.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -36,8 +37,8 @@ pub struct Turning {
 /// Counts turns.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TurningTally {
-    /// Sudden turns, turns to and fro, fast turns of the head.
-    counts: [usize; 3],
+    /// Sudden turns, turns to and fro, fast turns of the head, body by body.
+    pub(crate) incidents: Vec<Incident>,
     minutes: f64,
 }
 
@@ -46,24 +47,28 @@ impl TurningTally {
     pub(crate) fn add(&mut self, track: &BodyTrack) {
         let facings_rad = track.facings_rad();
         let under_way = |index: &usize| !track.samples[*index].has_arrived;
-        let events = |frames: &dyn Fn(usize) -> bool, gap_s: f64| {
-            let found = (0..track.samples.len()).filter(under_way).filter(|&index| frames(index));
-            event_count(found, track.count(gap_s))
+        let mut add = |kind: IncidentKind, gap_s: f64, found: &dyn Fn(usize) -> bool| {
+            let samples = (0..track.samples.len()).filter(under_way).filter(|&index| found(index));
+            self.incidents.extend(Incident::of_track(kind, track, samples, gap_s));
         };
-        let sudden = |index| turns_suddenly(&facings_rad, index, track.count(SUDDEN.1));
-        let to_and_fro = |index| turns_to_and_fro(&facings_rad, index, track.count(TO_AND_FRO.1));
-        let fast_head = |index| turns_head_fast(track, index);
-        self.counts[0] += events(&sudden, SUDDEN.1);
-        self.counts[1] += events(&to_and_fro, TO_AND_FRO.1);
-        self.counts[2] += events(&fast_head, HEAD_EVENT_S);
+        let [sudden_span, fro_span] = [SUDDEN.1, TO_AND_FRO.1].map(|duration_s| track.count(duration_s));
+        add(IncidentKind::SuddenTurn, SUDDEN.1, &|index| turns_suddenly(&facings_rad, index, sudden_span));
+        add(IncidentKind::ToAndFro, TO_AND_FRO.1, &|index| turns_to_and_fro(&facings_rad, index, fro_span));
+        add(IncidentKind::FastHead, ONE_FAST_HEAD_S, &|index| turns_head_fast(track, index));
         self.minutes += track.minutes();
     }
 
     /// The figures of all bodies.
     pub(crate) fn finish(&self) -> Turning {
-        let [sudden, to_and_fro, fast_head] =
-            self.counts.map(|count| (self.minutes > 0.0).then(|| count as f64 / self.minutes));
-        Turning { sudden_per_minute: sudden, to_and_fro_per_minute: to_and_fro, fast_head_per_minute: fast_head }
+        let per_minute = |kind: IncidentKind| {
+            let count = self.incidents.iter().filter(|incident| incident.kind == kind).count();
+            (self.minutes > 0.0).then(|| count as f64 / self.minutes)
+        };
+        Turning {
+            sudden_per_minute: per_minute(IncidentKind::SuddenTurn),
+            to_and_fro_per_minute: per_minute(IncidentKind::ToAndFro),
+            fast_head_per_minute: per_minute(IncidentKind::FastHead),
+        }
     }
 }
 
@@ -99,7 +104,7 @@ mod tests {
     use super::*;
     use crate::measures::people::body_track::tests::track;
 
-    /// Events of a body whose facing and head are functions of time, rad; one minute.
+    /// Incidents of a body whose facing and head are functions of time, rad; one minute.
     fn turning(facing_rad: impl Fn(f64) -> f64, head_rad: impl Fn(f64) -> f64) -> [f64; 3] {
         let mut tally = TurningTally::default();
         tally.add(&track(60.0, |time_s, sample| {
@@ -124,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_and_its_return_are_one_event() {
+    fn a_turn_and_its_return_are_one_incident() {
         let there_and_back =
             |pause_s: f64| move |time_s: f64| 0.6 * (turn(time_s, 9.0, 2.0) - turn(time_s, 9.5 + pause_s, 2.0));
         assert_eq!(turning(there_and_back(0.3), |_| 0.0)[1], 1.0);

@@ -6,14 +6,15 @@
 
 use serde::Serialize;
 
-use crate::measures::people::body_track::{BodyTrack, event_count};
+use crate::measures::people::body_track::BodyTrack;
+use crate::measures::people::incident::{Incident, IncidentKind};
 
 /// Acceleration of a lurch, m/s².
 const LURCH_MPS2: f64 = 18.0;
 /// Least speed of a body that walks, m/s.
 const WALKING_MPS: f32 = 0.3;
-/// Distance of frames that are one event, s.
-pub(crate) const ONE_EVENT_S: f64 = 0.2;
+/// Distance of frames that are one incident, s.
+pub(crate) const ONE_INCIDENT_S: f64 = 0.2;
 
 /// Lurches of a crowd.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -29,7 +30,8 @@ pub struct PelvisLurches {
 /// Counts lurches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PelvisLurchTally {
-    count: usize,
+    /// The lurches.
+    pub(crate) incidents: Vec<Incident>,
     minutes: f64,
     greatest_mps2: f64,
 }
@@ -50,13 +52,14 @@ impl PelvisLurchTally {
         self.minutes += accelerations.len() as f64 * track.dt_s / 60.0;
         self.greatest_mps2 = accelerations.iter().map(|(_, mps2)| *mps2).fold(self.greatest_mps2, f64::max);
         let lurches = accelerations.iter().filter(|(_, mps2)| *mps2 > LURCH_MPS2).map(|(index, _)| *index);
-        self.count += event_count(lurches, track.count(ONE_EVENT_S));
+        self.incidents.extend(Incident::of_track(IncidentKind::Lurch, track, lurches, ONE_INCIDENT_S));
     }
 
     /// The figures of all bodies.
     pub(crate) fn finish(&self) -> PelvisLurches {
-        let per_minute = (self.minutes > 0.0).then(|| self.count as f64 / self.minutes);
-        PelvisLurches { count: self.count, per_minute, greatest_mps2: self.greatest_mps2 }
+        let count = self.incidents.len();
+        let per_minute = (self.minutes > 0.0).then(|| count as f64 / self.minutes);
+        PelvisLurches { count, per_minute, greatest_mps2: self.greatest_mps2 }
     }
 }
 

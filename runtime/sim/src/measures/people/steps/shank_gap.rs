@@ -1,12 +1,13 @@
 //! Shanks that pass through each other: moments in which the axes of a body's shanks come too near.
 //!
 //! The limit is 7 cm for an adult's shanks, with radii of 4.9 cm: 0.71 times the sum of the radii for any body. Frames
-//! that are at most 0.2 s apart are one event; per minute before arrival.
+//! that are at most 0.2 s apart are one incident; per minute before arrival.
 
 use serde::Serialize;
 
-use crate::measures::people::body_track::{BodyTrack, event_count};
-use crate::measures::people::steps::pelvis_lurch::ONE_EVENT_S;
+use crate::measures::people::body_track::BodyTrack;
+use crate::measures::people::incident::{Incident, IncidentKind};
+use crate::measures::people::steps::pelvis_lurch::ONE_INCIDENT_S;
 
 /// Least distance of the axes, divided by the sum of the radii: 7 cm of an adult of 1.755 m.
 const APART_MIN: f32 = 0.07 / (2.0 * 0.028 * 1.755);
@@ -14,18 +15,19 @@ const APART_MIN: f32 = 0.07 / (2.0 * 0.028 * 1.755);
 /// Shanks of a crowd that come too near.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ShankGaps {
-    /// Number of events.
+    /// Number of incidents.
     pub count: usize,
-    /// Events per agent-minute before arrival; none of a crowd that has arrived.
+    /// Incidents per agent-minute before arrival; none of a crowd that has arrived.
     pub per_minute: Option<f64>,
     /// Least distance of the axes, divided by the sum of the radii of the shanks; none without frames.
     pub least_over_radii: Option<f64>,
 }
 
-/// Counts events.
+/// Counts incidents.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShankGapTally {
-    count: usize,
+    /// The incidents.
+    pub(crate) incidents: Vec<Incident>,
     minutes: f64,
     least: Option<f32>,
 }
@@ -35,15 +37,16 @@ impl ShankGapTally {
     pub(crate) fn add(&mut self, track: &BodyTrack) {
         let under_way = || track.samples.iter().enumerate().filter(|(_, sample)| !sample.has_arrived);
         let near = under_way().filter(|(_, sample)| sample.shanks_apart < APART_MIN).map(|(index, _)| index);
-        self.count += event_count(near, track.count(ONE_EVENT_S));
+        self.incidents.extend(Incident::of_track(IncidentKind::ShanksTooNear, track, near, ONE_INCIDENT_S));
         self.minutes += track.minutes();
         self.least = under_way().map(|(_, sample)| sample.shanks_apart).chain(self.least).reduce(f32::min);
     }
 
     /// The figures of all bodies.
     pub(crate) fn finish(&self) -> ShankGaps {
-        let per_minute = (self.minutes > 0.0).then(|| self.count as f64 / self.minutes);
-        ShankGaps { count: self.count, per_minute, least_over_radii: self.least.map(f64::from) }
+        let count = self.incidents.len();
+        let per_minute = (self.minutes > 0.0).then(|| count as f64 / self.minutes);
+        ShankGaps { count, per_minute, least_over_radii: self.least.map(f64::from) }
     }
 }
 
