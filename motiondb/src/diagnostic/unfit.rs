@@ -120,6 +120,15 @@ pub enum Unfit {
     },
     /// Feet slide or are hardly planted, and a blend of clips with cleaner feet reaches the same parameters.
     CleanerClips,
+    /// The manifest states that the clip shows a transition.
+    StatedTransition,
+    /// The body lies: it stretches along another axis than the same rig where it walks.
+    LiesDown {
+        /// Axis along which the body stretches: `+X` … `-Z`.
+        found: String,
+        /// Axes that are up where the rig walks.
+        walks: Vec<String>,
+    },
 }
 
 impl Unfit {
@@ -146,6 +155,8 @@ impl Unfit {
             Self::ArmRaised => "arm_raised",
             Self::CycleOpen { .. } => "cycle_open",
             Self::CleanerClips => "cleaner_clips",
+            Self::StatedTransition => "stated_transition",
+            Self::LiesDown { .. } => "lies_down",
         }
     }
 }
@@ -221,6 +232,16 @@ impl fmt::Display for Unfit {
             Self::CleanerClips => out.write_str(
                 "clips with cleaner feet reach its speed and give the examples in its place; repair its feet, or leave it \
                  out",
+            ),
+            Self::StatedTransition => out.write_str(
+                "the manifest states that it shows a transition, which joins examples of other clips, of walking and of \
+                 standing",
+            ),
+            Self::LiesDown { found, walks } => write!(
+                out,
+                "the body lies: it stretches along {found}, but the same rig walks with {} up; leave it out, or state `up` \
+                 in a manifest.toml if it stands",
+                walks.join(" or ")
             ),
             Self::MovesLengthwise => out.write_str(
                 "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \

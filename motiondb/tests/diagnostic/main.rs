@@ -105,6 +105,8 @@ const NUMBERED: [&[&str]; 3] = [
         "arm_raised",
         "cycle_open",
         "cleaner_clips",
+        "stated_transition",
+        "lies_down",
     ],
 ];
 

@@ -83,6 +83,16 @@ pub(crate) fn unfit() -> Vec<(Unfit, &'static str)> {
             "clips with cleaner feet reach its speed and give the examples in its place; repair its feet, or leave it out",
         ),
         (
+            Unfit::StatedTransition,
+            "the manifest states that it shows a transition, which joins examples of other clips, of walking and of \
+             standing",
+        ),
+        (
+            Unfit::LiesDown { found: "-Z".to_owned(), walks: vec!["+Y".to_owned()] },
+            "the body lies: it stretches along -Z, but the same rig walks with +Y up; leave it out, or state `up` in a \
+             manifest.toml if it stands",
+        ),
+        (
             Unfit::MovesLengthwise,
             "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a clip \
              of walking or standing",

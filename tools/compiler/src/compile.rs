@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use crate::action::idles::idles;
 use crate::action::joined_action::{in_order, joined_idles};
 use crate::cache::Cache;
+use crate::checks::lying::leave_out_lying;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
@@ -98,7 +99,7 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
 /// # Steps
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
-///    of near-equal ones.
+///    of near-equal ones. Leave out clips in which the body lies (`checks`).
 /// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
 ///    duplicates ([`crate::dedup`]).
 /// 4. Cut the idles (`action`).
@@ -150,7 +151,8 @@ fn database(
         None => (set.compared(), set.analyzed()),
     };
     observer(CompileEvent::Stage("selection"));
-    let TargetedClips { clips, body } = set;
+    let TargetedClips { mut clips, body } = set;
+    leave_out_lying(&mut clips, &mut analyzed);
     analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
     let extra = SetExtra::of(&clips, &analyzed, &body);
     let log = cache.map_or_else(ComparisonLog::default, |cache| cache.comparisons(&clips));

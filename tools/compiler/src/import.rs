@@ -26,6 +26,7 @@ use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
 use crate::input::clip_settings::ClipSettings;
+use crate::read::axis::Axis;
 use crate::read::bvh;
 use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::GltfFile;
@@ -190,7 +191,7 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     if motion.frame_count() < MIN_FRAMES {
         return Err(RejectionReason::TooShort);
     }
-    let (mut clip, mut roles, rest_offset) = clip_with_roles(motion, settings)?;
+    let (mut clip, mut roles, rest) = clip_with_roles(motion, settings)?;
     if lacks_rotations(&clip, &roles) {
         return Err(RejectionReason::NoRotations);
     }
@@ -232,11 +233,12 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
     if let Some(head) = &mut human.rig_head {
-        head.rest_offset = rest_offset;
+        (head.rest_up, head.rest_offset) = (rest.up.name(), rest.head_offset);
     }
     human.unfit = unfit;
     human.jumps = jumps.into_iter().map(|jump| jump.frames).collect();
     human.choices.takes_any_posture = settings.takes_any_posture;
+    human.choices.is_up_stated = settings.up.is_some();
     human.choices.mirror = settings.mirror;
     human.choices.transition = settings.transition;
     human.choices.is_cut = settings.frames.is_some();
@@ -246,18 +248,29 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
 }
 
-/// The joints that have roles and the extra joints, in all frames, and their roles. Memory: the poses of all joints never
-/// exist at once.
+/// What a rest pose shows.
+struct RestPose {
+    /// Axis nearest to the direction from ankles to hips, source axes.
+    up: Axis,
+    /// Rotation of an upright head in the frame of the source's head joint.
+    head_offset: Option<DQuat>,
+}
+
+/// The joints that have roles and the extra joints, in all frames; their roles; and what the rest pose shows. Memory: the
+/// poses of all joints never exist at once.
 fn clip_with_roles(
     mut motion: SourceMotion,
     settings: &ClipSettings,
-) -> Result<(SourceClip, Roles, Option<DQuat>), RejectionReason> {
+) -> Result<(SourceClip, Roles, RestPose), RejectionReason> {
     let known = settings.joint_map(&motion.head)?;
     rig::check_size(&motion.head)?;
     let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
     let mut roles = rig::find_roles(&sample, &known)?;
     let rest = motion.rest();
-    let rest_offset = rig::rest_head::rest_offset(&motion.head.joints, &rest, &roles);
+    let rest = RestPose {
+        up: rig::rest_head::rest_up(&rest, &roles),
+        head_offset: rig::rest_head::rest_offset(&motion.head.joints, &rest, &roles),
+    };
     let extra = extra_joints(&sample, &roles);
     roles.extra = extra.kept;
     let left_out = Note::JointsLeftOut { moving: extra.left_out as u32, kept: roles.extra.len() as u32 };
@@ -272,7 +285,7 @@ fn clip_with_roles(
         motion.into_clip(&kept)?
     };
     clip.diagnostics.extend(left_out);
-    Ok((clip, roles, rest_offset))
+    Ok((clip, roles, rest))
 }
 
 /// Removes poses that are not part of the motion, unless a manifest selects the frames, and returns the whole-clip

@@ -223,6 +223,13 @@ fn mistakes_are_shown_at_their_position() {
 }
 
 #[test]
+fn a_set_of_transitions_alone_says_what_is_missing() {
+    let start = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\ntransition = 'start'\n");
+    let error = compile(&folder("transition_alone", &start)).unwrap_err().to_string();
+    assert!(error.contains("walk_110.bvh: the manifest states that it shows a transition"), "{error}");
+}
+
+#[test]
 fn the_schema_has_the_keys_that_are_read() {
     let schema: serde_json::Value = serde_json::from_str(SCHEMA).unwrap();
     let check = |properties: &serde_json::Value, text: &str| {

@@ -178,6 +178,32 @@ fn a_long_crawl_does_not_hide_a_short_walk() {
 }
 
 #[test]
+fn a_body_that_lies_is_no_idle_of_a_rig_that_walks() {
+    for down_deg in [-90.0_f64, 90.0] {
+        let mut lies = Performance::read("idle");
+        for pose in &mut lies.poses {
+            let across = DVec3::Y.cross((pose.turns[0] * DVec3::Z).with_y(0.0)).normalize();
+            let turn = DQuat::from_axis_angle(across, down_deg.to_radians());
+            pose.hips_m.y = 0.15;
+            pose.turns = pose.turns.map(|part| turn * part);
+        }
+        let stills_of = |lies: HumanClip| {
+            let db = compile(vec![imported(&walk()), lies], &Options::default(), &|_| ()).unwrap();
+            let lies_down = |found: &Diagnostic| matches!(found, Diagnostic::NoExample(Unfit::LiesDown { .. }));
+            let noted = db.sources.iter().any(|source| source.diagnostics.iter().any(lies_down));
+            (db.examples.iter().filter(|example| example.parameters.speed_mps < 1.0).count(), noted)
+        };
+        let clip = imported(&lies);
+        assert_eq!(stills_of(clip.clone()), (0, true), "{down_deg}°");
+        let mut stated = clip.clone();
+        stated.choices.is_up_stated = true;
+        assert_eq!(stills_of(stated), (1, false), "{down_deg}°");
+    }
+    let upright = compile(vec![imported(&walk()), imported(&Performance::read("idle"))], &Options::default(), &|_| ());
+    assert!(upright.unwrap().examples.iter().any(|example| example.parameters.speed_mps == 0.0));
+}
+
+#[test]
 fn every_bundled_clip_is_upright() {
     for clip in ["walk_050", "walk_180", "jog_240", "run_350", "jog_turn_110_left", "backward_110", "idle"] {
         assert_eq!(low_parts(&imported(&Performance::read(clip))), [], "{clip}");

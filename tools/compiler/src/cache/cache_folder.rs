@@ -21,7 +21,7 @@ use crate::retarget::human_clip::Digest;
 /// Beginning of each file.
 const MAGIC: [u8; 8] = *b"FBCACHE\0";
 /// Version of the files' layout.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// End of the name of each file.
 const SUFFIX: &str = ".fbcache";
 /// Greatest size of one result, bytes: that of an hour of capture at rest.

@@ -88,7 +88,7 @@ impl AnalyzedClip {
             Err(unfit) => reasons.push(unfit),
         }
         if clip.choices.transition.is_some() {
-            (windows, reasons) = (Vec::new(), Vec::new());
+            (windows, reasons) = (Vec::new(), vec![clip.unfit.clone().unwrap_or(Unfit::StatedTransition)]);
         }
         let standing_flaws = standing_flaws(clip);
         windows
@@ -119,6 +119,12 @@ impl AnalyzedClip {
     /// Whether the clip may give an example or a transition.
     pub(crate) fn gives_motion(&self) -> bool {
         !self.windows.is_empty() || !self.movements.is_empty()
+    }
+
+    /// Leaves the whole clip out, for a reason that only the set shows.
+    pub(crate) fn leave_out(&mut self, reason: Unfit) {
+        (self.windows, self.rests, self.movements, self.corners) = Default::default();
+        (self.diagnostics, self.left_out) = (vec![Diagnostic::NoExample(reason)], LeftOutWindows::default());
     }
 
     /// Frees the poses that no standing cycle, no idle and no transition needs.

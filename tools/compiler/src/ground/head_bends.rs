@@ -98,8 +98,12 @@ mod tests {
         let clip = |offset_deg: &f64| {
             let mut clip = synthetic::walk("walk", SyntheticWalk { duration_s: 1.0, ..SyntheticWalk::default() });
             let rig = Rig { names: Vec::new(), lengths: Vec::new() };
-            clip.rig_head =
-                Some(RigHead { rig, offset: DQuat::from_axis_angle(axis, offset_deg.to_radians()), rest_offset });
+            clip.rig_head = Some(RigHead {
+                rig,
+                offset: DQuat::from_axis_angle(axis, offset_deg.to_radians()),
+                rest_offset,
+                rest_up: String::new(),
+            });
             clip
         };
         let clips: Vec<HumanClip> = offsets_deg.iter().map(clip).collect();

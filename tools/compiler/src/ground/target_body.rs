@@ -102,7 +102,8 @@ mod tests {
             let duration_s = 1.0 / (1 + index) as f64;
             let mut clip = synthetic::walk("walk", SyntheticWalk { size, duration_s, ..SyntheticWalk::default() });
             let rig = Rig { names: vec![format!("{size}")], lengths: Vec::new() };
-            clip.rig_head = Some(RigHead { rig, offset: glam::DQuat::IDENTITY, rest_offset: None });
+            clip.rig_head =
+                Some(RigHead { rig, offset: glam::DQuat::IDENTITY, rest_offset: None, rest_up: String::new() });
             // Each clip shows its performer's bones a little otherwise.
             clip.body.offsets_m.iter_mut().for_each(|offset_m| *offset_m *= 1.0 + 1e-4 * index as f64);
             clip

@@ -81,6 +81,8 @@ pub struct Choices {
     pub is_cut: bool,
     /// Whether parts in which the body is not upright give examples, too.
     pub takes_any_posture: bool,
+    /// Whether the manifest states the up axis.
+    pub is_up_stated: bool,
     /// The kind of transition that the clip shows; it then gives no example.
     pub transition: Option<ActionKind>,
 }

@@ -1,6 +1,6 @@
-//! The head's offset in a rig, as the rest pose shows it: a figure at rest looks straight ahead.
+//! What a rest pose shows of a rig: its up axis, and the head's offset, since a figure at rest looks straight ahead.
 //!
-//! Only a body that stands straight on straight legs is a rest pose. Zero poses of many files are none: LaFAN1's bones all
+//! Only a body that stands straight on straight legs shows the head. Zero poses of many files are none: LaFAN1's bones all
 //! lie along one axis. Source axes.
 
 use std::iter::successors;
@@ -18,6 +18,12 @@ const STRAIGHT_COSINE: f64 = 0.94;
 /// Least cosine between the vertical and the line from the head to its farthest joint, or from the shoulders to a head
 /// without joints (45°). A head whose end lies aside shows no direction: one such rig (CMU's for Poser) is 28° off.
 const HEAD_COSINE: f64 = 0.7;
+
+/// The axis nearest to the direction from ankles to hips in the rest pose; any axis where both coincide.
+pub(crate) fn rest_up(rest: &JointPoses, roles: &Roles) -> Axis {
+    let middle = |pair: [Joint; 2]| pair.map(|joint| rest.positions[roles.required(joint)]).into_iter().sum::<DVec3>();
+    Axis::nearest(middle(Joint::THIGHS) - middle(Joint::FEET))
+}
 
 /// Rotation of an upright head in the frame of the source's head joint, by the rest pose; `None` where the rest pose is no
 /// body that stands.

@@ -28,6 +28,8 @@ pub struct RigHead {
     pub(crate) offset: DQuat,
     /// The same by the rest pose, where that is a body that stands.
     pub(crate) rest_offset: Option<DQuat>,
+    /// Axis of the source along which its rest pose stands, `+X` … `-Z`.
+    pub(crate) rest_up: String,
 }
 
 impl RigHead {
@@ -40,6 +42,7 @@ impl RigHead {
             Some(libm::round(from.distance(to) / (BONE_STEP_LEGS * leg_m)) as i64)
         };
         let lengths = Joint::ALL.iter().map(|joint| length(joint).unwrap_or_default()).collect();
-        Self { rig: Rig { names: roles.joints.iter().map(name).collect(), lengths }, offset, rest_offset: None }
+        let rig = Rig { names: roles.joints.iter().map(name).collect(), lengths };
+        Self { rig, offset, rest_offset: None, rest_up: String::new() }
     }
 }
