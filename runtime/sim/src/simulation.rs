@@ -235,22 +235,21 @@ impl Simulation {
     }
 
     fn follow_paths(&mut self) {
-        let braking = match self.scenario.coupling {
-            Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
-            Coupling::Discs => Braking::Within(self.scenario.dt_s),
-        };
-        let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
+        let (keep, dt_s, coupling) = (self.scenario.params.route.keep, self.scenario.dt_s, self.scenario.coupling);
         let Self { agents, population, obstacles, zone_walls, state_zones, routes, doors, crowd, steps, .. } = self;
         let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
         let red = doors.is_any_red().then_some(red);
-        let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
+        // `braking` is a placeholder: that of each agent is set below, by its velocity.
+        let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking: Braking::Not };
         let passing = doors.passing(agents);
         let view_passing = RouteView { routes: routes.all_open(), doors: None, ..view };
-        let Agents { ids, removals, positions_m, closed_zones, progress, route_memory, .. } = agents;
+        let Agents { ids, removals, positions_m, velocities_mps, closed_zones, progress, route_memory, .. } = agents;
         let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
         let preferred = agents.preferred_mps.par_iter_mut().zip(&mut agents.facing_offsets_rad);
-        let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred).enumerate();
-        present.zip(remembered).for_each(|((index, (((id, removal), position_m), preferred)), (progress, memory))| {
+        let moving = positions_m.par_iter().zip(velocities_mps);
+        let present = ids.par_iter().zip(removals).zip(moving.zip(preferred)).enumerate();
+        present.zip(remembered).for_each(|((index, ((id, removal), (moving, preferred))), (progress, memory))| {
+            let (position_m, velocity_mps) = moving;
             // An agent that leaves goes on as it went: it may have passed its goal.
             if removal.is_some() {
                 return;
@@ -260,7 +259,7 @@ impl Simulation {
             let has_begun = life.begins_at(dt_s) <= *steps;
             let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
             let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
-            let view = &RouteView { obstacles, ..*view };
+            let view = &RouteView { obstacles, braking: Braking::of(coupling, *velocity_mps, dt_s), ..*view };
             let motion = if has_begun { walker.preferred_motion(view, progress, memory) } else { Default::default() };
             let (preferred_mps, facing_offset_rad) = preferred;
             *preferred_mps = motion.velocity_mps;

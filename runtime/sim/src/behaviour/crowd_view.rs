@@ -32,8 +32,8 @@ pub struct CrowdView<'a> {
     pub open_route_m: Option<&'a RouteLength<'a>>,
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
-    /// Whether an agent, by index, stands at the goal that it had in the last step: its body has stopped there, or it
-    /// was pushed no farther than a step away.
+    /// Whether an agent, by index, has come to the goal that it had in the last step: its body stands there, or comes to rest
+    /// there, or was pushed no farther than a step away.
     pub stands_at_goal: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether an agent, by index, has begun; before, it enters no state.
     pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),

@@ -10,7 +10,7 @@ use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, R
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
 use crate::route::steering::{self, Heading};
-use crate::scenario::AgentSpec;
+use crate::scenario::{AgentSpec, Coupling};
 use crate::world::obstacles::Obstacles;
 
 /// Distance within which an agent beyond a waypoint has passed it, m: two agents abreast fill the path about the
@@ -24,7 +24,7 @@ const ROUNDING_S: f32 = 0.7;
 const ROUNDED_COS: f32 = -0.5;
 /// Distance within which a waypoint of such a turn is reached, m: the radius of an arrival.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
-/// Distance within which the last goal is reached, m: half a step.
+/// Distance within which the last goal is reached, m, beside the distance that the body coasts: half a step.
 const GOAL_RADIUS_M: f32 = 0.2;
 /// Distance beyond which an agent that was pushed away walks to its last goal again, m. At 0.4 m bodies of slow
 /// databases, whose least step is long, shuffle about their goals endlessly.
@@ -37,17 +37,40 @@ const ON_MESH_M: f32 = 1e-3;
 const BRAKING_MPS2: f32 = 1.0;
 /// Time remaining on the last stretch, s: there the speed falls with the distance.
 const STOPPING_TIME_S: f32 = 0.5;
+/// Time for which a body goes on at its speed beyond the point where its agent prefers to rest, s: plans lag behind v_pref,
+/// and the feet close (docs/tuning.md).
+const COAST_S: f32 = 0.2;
 
 /// How an agent slows down before its last goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Braking {
-    /// As a body can: evenly; then it stays until it is pushed away.
-    Evenly,
+    /// As a body can: evenly, and so early that it rests at the goal after it has coasted; then it stays until it is
+    /// pushed away.
+    Evenly {
+        /// Velocity at which the body coasts once v_pref is 0, world, m/s; 0 of a disc that stops at once.
+        velocity_mps: Vec2,
+    },
     /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
     /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
     /// Not at all: the agent walks through its goal, where it leaves the scene.
     Not,
+}
+
+impl Braking {
+    /// How an agent at a velocity slows down, by the coupling of its simulation, in steps of `dt_s`.
+    pub(crate) fn of(coupling: Coupling, velocity_mps: Vec2, dt_s: f32) -> Self {
+        match coupling {
+            Coupling::TwoWay => Self::Evenly { velocity_mps },
+            Coupling::Decoupled => Self::Evenly { velocity_mps: Vec2::ZERO },
+            Coupling::Discs => Self::Within(dt_s),
+        }
+    }
+
+    /// Distance that the body still moves in a direction after v_pref is 0, m.
+    pub(crate) fn coast_m(self, direction: Vec2) -> f32 {
+        if let Self::Evenly { velocity_mps } = self { COAST_S * velocity_mps.dot(direction).max(0.0) } else { 0.0 }
+    }
 }
 
 /// How far an agent has come along its waypoints.
@@ -159,23 +182,88 @@ pub fn preferred_motion(
     }
     let to_last = progress.pass(agent, position_m);
     let next = progress.next as usize;
-    let goal_m = agent.goals_m[next];
-    let to_goal_m = goal_m - position_m;
+    let (goal_m, speed_mps, wall_radius_m) = (agent.goals_m[next], agent.preferred_speed_mps, agent.wall_radius_m);
     let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next(agent, position_m, goal_m, memory);
-    let corner = view.next([position_m, goal_m], agent.wall_radius_m, memory, query);
-    let can_rest = corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal_m, &corner));
-    progress.arrived = to_last && can_rest && to_goal_m.length() < arrival_radius_m(progress.arrived);
-    if let Some(heading) =
-        corner.and_then(|corner| steering::heading(position_m, &corner, view.keep, agent.wall_radius_m, view.obstacles))
-    {
-        return PreferredMotion::along(heading, agent.preferred_speed_mps);
+    let corner = view.next([position_m, goal_m], wall_radius_m, memory, query);
+    let stretch = Stretch { position_m, goal_m, corner, speed_mps, wall_radius_m };
+    progress.arrived = to_last && stretch.has_arrived(progress.arrived, view.braking);
+    if let Some(motion) = stretch.around_walls(view) {
+        return motion;
     }
     if !to_last {
-        let direction = RoundedWaypoint::new(agent, next).direction(position_m);
-        return PreferredMotion::ahead(direction * agent.preferred_speed_mps);
+        return PreferredMotion::ahead(RoundedWaypoint::new(agent, next).direction(position_m) * speed_mps);
     }
-    let speed_mps = goal_speed_mps(to_goal_m.length(), agent.preferred_speed_mps, view.braking, progress.arrived);
-    PreferredMotion::ahead(to_goal_m.normalize_or_zero() * speed_mps)
+    stretch.to_goal(view.braking, progress.arrived)
+}
+
+/// The motion towards a goal that is not a waypoint, around walls; `arrived` states whether the agent stands there.
+pub(crate) fn motion_towards(
+    agent: &Walker,
+    goal: &RouteEnd,
+    view: &RouteView,
+    arrived: &mut bool,
+    memory: &mut RouteMemory,
+) -> PreferredMotion {
+    let &Walker { position_m, speed_mps, wall_radius_m, class } = agent;
+    let goal_m = goal.position_m;
+    let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(class, position_m, goal, memory);
+    let corner = view.next([position_m, goal_m], wall_radius_m, memory, query);
+    let stretch = Stretch { position_m, goal_m, corner, speed_mps, wall_radius_m };
+    *arrived = stretch.has_arrived(*arrived, view.braking);
+    stretch.around_walls(view).unwrap_or_else(|| stretch.to_goal(view.braking, *arrived))
+}
+
+/// What is left of an agent's path to its next goal.
+struct Stretch {
+    position_m: Vec2,
+    goal_m: Vec2,
+    /// The next corner, or where the goal is in sight none or the goal.
+    corner: Option<NextCorner>,
+    /// Preferred speed, m/s.
+    speed_mps: f32,
+    /// Radius of the disc that walls hold, m.
+    wall_radius_m: f32,
+}
+
+impl Stretch {
+    /// Whether the agent stands at its goal or comes to rest there, with no wall before it, and not much nearer to a wall than
+    /// the goal. `arrived` states whether it had arrived before.
+    fn has_arrived(&self, arrived: bool, braking: Braking) -> bool {
+        let comes_m = || (GOAL_RADIUS_M + self.coast_m(braking)).min(GOAL_LEFT_RADIUS_M);
+        let radius_m = if arrived { GOAL_LEFT_RADIUS_M } else { comes_m() };
+        let can_rest = |corner: &NextCorner| corner.after_m.is_none() && !self.leans_on_wall(corner);
+        self.corner.as_ref().is_none_or(can_rest) && self.goal_m.distance(self.position_m) < radius_m
+    }
+
+    /// Whether the agent near its goal is much nearer to a wall than its goal is.
+    fn leans_on_wall(&self, corner: &NextCorner) -> bool {
+        let off_mesh_m = corner.entry_m.map_or(0.0, |entry_m| entry_m.distance(self.position_m));
+        let is_goal_on_mesh = corner.corner_m.distance(self.goal_m) < ON_MESH_M;
+        is_goal_on_mesh && off_mesh_m > LEANS_M
+    }
+
+    fn coast_m(&self, braking: Braking) -> f32 {
+        braking.coast_m((self.goal_m - self.position_m).normalize_or_zero())
+    }
+
+    /// The motion around the walls before the goal; none where it is in sight.
+    fn around_walls(&self, view: &RouteView) -> Option<PreferredMotion> {
+        let corner = self.corner.as_ref()?;
+        let heading = steering::heading(self.position_m, corner, view.keep, self.wall_radius_m, view.obstacles)?;
+        Some(PreferredMotion::along(heading, self.speed_mps))
+    }
+
+    /// The motion towards the last goal in sight.
+    fn to_goal(&self, braking: Braking, arrived: bool) -> PreferredMotion {
+        let to_goal_m = self.goal_m - self.position_m;
+        let speed_mps = match braking {
+            Braking::Evenly { .. } if arrived => 0.0,
+            Braking::Evenly { .. } => braking_speed_mps((to_goal_m.length() - self.coast_m(braking)).max(0.0)),
+            Braking::Within(time_s) => to_goal_m.length() / time_s,
+            Braking::Not => self.speed_mps,
+        };
+        PreferredMotion::ahead(to_goal_m.normalize_or_zero() * speed_mps.min(self.speed_mps))
+    }
 }
 
 /// A waypoint that is not the last one, and how it is rounded.
@@ -220,52 +308,6 @@ impl RoundedWaypoint {
     }
 }
 
-/// Whether an agent near its goal is much nearer to a wall than its goal is.
-fn leans_on_wall(position_m: Vec2, goal_m: Vec2, corner: &NextCorner) -> bool {
-    let off_mesh_m = corner.entry_m.map_or(0.0, |entry_m| entry_m.distance(position_m));
-    let is_goal_on_mesh = corner.corner_m.distance(goal_m) < ON_MESH_M;
-    is_goal_on_mesh && off_mesh_m > LEANS_M
-}
-
-/// The motion towards a goal that is not a waypoint, around walls; `arrived` states whether the agent stands there.
-pub(crate) fn motion_towards(
-    agent: &Walker,
-    goal: &RouteEnd,
-    view: &RouteView,
-    arrived: &mut bool,
-    memory: &mut RouteMemory,
-) -> PreferredMotion {
-    let &Walker { position_m, speed_mps, wall_radius_m, class } = agent;
-    let to_goal_m = goal.position_m - position_m;
-    let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(class, position_m, goal, memory);
-    let corner = view.next([position_m, goal.position_m], wall_radius_m, memory, query);
-    let can_rest =
-        corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal.position_m, &corner));
-    *arrived = can_rest && to_goal_m.length() < arrival_radius_m(*arrived);
-    let around =
-        corner.and_then(|corner| steering::heading(position_m, &corner, view.keep, wall_radius_m, view.obstacles));
-    if let Some(heading) = around {
-        return PreferredMotion::along(heading, speed_mps);
-    }
-    let speed_mps = goal_speed_mps(to_goal_m.length(), speed_mps, view.braking, *arrived);
-    PreferredMotion::ahead(to_goal_m.normalize_or_zero() * speed_mps)
-}
-
-/// Speed before the last goal, m/s.
-fn goal_speed_mps(distance_m: f32, preferred_speed_mps: f32, braking: Braking, arrived: bool) -> f32 {
-    let speed_mps = match braking {
-        Braking::Evenly if arrived => 0.0,
-        Braking::Evenly => braking_speed_mps(distance_m),
-        Braking::Within(time_s) => distance_m / time_s,
-        Braking::Not => preferred_speed_mps,
-    };
-    speed_mps.min(preferred_speed_mps)
-}
-
-fn arrival_radius_m(arrived: bool) -> f32 {
-    if arrived { GOAL_LEFT_RADIUS_M } else { GOAL_RADIUS_M }
-}
-
 /// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.
 pub(crate) fn braking_speed_mps(distance_m: f32) -> f32 {
     let last_stretch_m = BRAKING_MPS2 * STOPPING_TIME_S * STOPPING_TIME_S;
@@ -296,14 +338,17 @@ mod tests {
 
     /// v_pref on open ground, braking evenly.
     fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
+        braking_on_open_ground_mps(agent, position_m, Braking::Evenly { velocity_mps: Vec2::ZERO }, progress)
+    }
+
+    fn braking_on_open_ground_mps(
+        agent: &AgentSpec,
+        position_m: Vec2,
+        braking: Braking,
+        progress: &mut PathProgress,
+    ) -> Vec2 {
         let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
-        let view = RouteView {
-            routes: &routes,
-            doors: None,
-            obstacles: &obstacles,
-            keep: KeepSide::Right,
-            braking: Braking::Evenly,
-        };
+        let view = RouteView { routes: &routes, doors: None, obstacles: &obstacles, keep: KeepSide::Right, braking };
         preferred_motion(agent, position_m, &view, progress, &mut RouteMemory::default()).velocity_mps
     }
 
@@ -359,6 +404,25 @@ mod tests {
     }
 
     #[test]
+    fn a_body_that_coasts_brakes_and_arrives_earlier() {
+        let agent = agent(&[Vec2::new(5.0, 0.0)]);
+        let moved = |left_m: f32, velocity_mps: Vec2, arrived: bool| {
+            let (position_m, mut progress) = (Vec2::new(5.0 - left_m, 0.0), PathProgress { next: 0, arrived });
+            let braking = Braking::Evenly { velocity_mps };
+            (braking_on_open_ground_mps(&agent, position_m, braking, &mut progress).x, progress.arrived)
+        };
+        let coast_m = COAST_S * 1.25;
+        let along = |left_m: f32| moved(left_m, Vec2::new(1.25, 0.6), false);
+        for aside in [Vec2::ZERO, Vec2::Y, -Vec2::X] {
+            assert!((along(0.9).0 - moved(0.9 - coast_m, aside, false).0).abs() < 1e-5);
+            assert!(moved(GOAL_RADIUS_M - 0.01, aside, false).1 && !moved(GOAL_RADIUS_M + 0.01, aside, false).1);
+        }
+        assert!(along(GOAL_RADIUS_M + coast_m - 0.01).1 && !along(GOAL_RADIUS_M + coast_m + 0.01).1);
+        let runs = |arrived: bool| moved(GOAL_LEFT_RADIUS_M + 0.05, 4.0 * Vec2::X, arrived).1;
+        assert!(!runs(false) && !runs(true));
+    }
+
+    #[test]
     fn an_agent_without_goals_stays() {
         let mut progress = PathProgress::default();
         let preferred_mps = on_open_ground_mps(&agent(&[]), Vec2::ONE, &mut progress);
@@ -389,7 +453,7 @@ mod tests {
             doors: None,
             obstacles: &obstacles,
             keep: KeepSide::Right,
-            braking: Braking::Evenly,
+            braking: Braking::Evenly { velocity_mps: Vec2::ZERO },
         };
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut motion = |x_m, y_m| {

@@ -6,14 +6,14 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::route::path::braking_speed_mps;
+use crate::route::path::{Braking, braking_speed_mps};
 use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
 
 /// Distance from a closed door at which the disc of an agent stands, m: its feet and arms clear the door.
 const STAND_OFF_M: f32 = 0.5;
 /// Distance between the discs of an agent that waits and one that waits behind it, m.
 const GAP_M: f32 = 0.25;
-/// Distance from its place within which an agent begins to wait, m.
+/// Distance from its place within which an agent begins to wait, m, beside the distance that it coasts.
 const STOPS_M: f32 = 0.08;
 /// Distance from its place beyond which an agent that waits moves up, m: a step.
 const MOVES_UP_M: f32 = 0.5;
@@ -48,6 +48,8 @@ struct Comer {
     direction: Vec2,
     /// Distance from its place within which it waits, m.
     slack_m: f32,
+    /// Distance that it coasts, m.
+    coast_m: f32,
 }
 
 impl Simulation {
@@ -56,7 +58,7 @@ impl Simulation {
         if !self.doors.is_any_red() {
             return;
         }
-        let agents = &mut self.agents;
+        let (agents, coupling, dt_s) = (&mut self.agents, self.scenario.coupling, self.scenario.dt_s);
         let rank = |index: usize| agents.route_memory[index].door.as_ref().map_or(0, |door| door.rank);
         let waiting = (0..agents.positions_m.len()).filter(|&index| rank(index) > 0).map(|index| Waiting {
             index,
@@ -65,24 +67,26 @@ impl Simulation {
             rank: rank(index),
         });
         let crowd = WaitingCrowd::new(waiting.collect());
-        let present = agents.positions_m.par_iter().zip(&agents.radii_m).zip(&agents.removals).enumerate();
+        let moving = agents.positions_m.par_iter().zip(&agents.velocities_mps);
+        let present = moving.zip(&agents.radii_m).zip(&agents.removals).enumerate();
         let present = present.zip(agents.route_memory.par_iter_mut().zip(&mut agents.preferred_mps));
         present.with_min_len(ROUTES_PER_TASK_MIN).for_each(
-            |((index, ((&position_m, &radius_m), removal)), (memory, preferred_mps))| {
+            |((index, (((&position_m, &velocity_mps), &radius_m), removal)), (memory, preferred_mps))| {
                 let Some(door) = memory.door.as_mut() else { return };
                 let was_waiting = door.rank > 0;
                 door.rank = 0;
                 // Without a query in this step it does not walk.
                 let Some(free_m) = door.free_m.take().filter(|_| removal.is_none()) else { return };
                 let direction = preferred_mps.normalize_or_zero();
-                let slack_m = if was_waiting { MOVES_UP_M } else { STOPS_M };
-                let comer = Comer { index, position_m, radius_m, direction, slack_m };
+                let coast_m = Braking::of(coupling, velocity_mps, dt_s).coast_m(direction);
+                let slack_m = if was_waiting { MOVES_UP_M } else { (STOPS_M + coast_m).min(MOVES_UP_M) };
+                let comer = Comer { index, position_m, radius_m, direction, slack_m, coast_m };
                 let (left_m, rank) = crowd.place(&comer, free_m - STAND_OFF_M);
                 door.rank = rank;
                 *preferred_mps = if rank > 0 {
                     Vec2::ZERO
                 } else {
-                    preferred_mps.clamp_length_max(braking_speed_mps(left_m.max(0.0)))
+                    preferred_mps.clamp_length_max(braking_speed_mps((left_m - coast_m).max(0.0)))
                 };
             },
         );
@@ -102,7 +106,7 @@ impl WaitingCrowd {
             return (to_door_m, 1);
         }
         let (mut left_m, mut rank) = (to_door_m, u32::MAX);
-        let reach_m = comer.radius_m + self.radius_max_m + GAP_M + BRAKES_M;
+        let reach_m = comer.radius_m + self.radius_max_m + GAP_M + BRAKES_M + comer.coast_m;
         let from = self.agents.partition_point(|other| other.position_m.x < comer.position_m.x - reach_m);
         let near = self.agents[from..].iter().take_while(|other| other.position_m.x <= comer.position_m.x + reach_m);
         for other in near.filter(|other| other.index != comer.index && other.rank < RANK_MAX) {

@@ -177,7 +177,7 @@ impl DiscCrowd {
     fn follow_paths(&mut self, setting: &CrowdSetting) -> Vec<Vec2> {
         let braking = match setting.response {
             DiscResponse::Immediate => Braking::Within(setting.dt_s),
-            DiscResponse::Lagging(..) => Braking::Evenly,
+            DiscResponse::Lagging(..) => Braking::Evenly { velocity_mps: Vec2::ZERO },
         };
         let view = RouteView {
             routes: &CrowdRoutes::default(),

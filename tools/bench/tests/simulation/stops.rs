@@ -4,6 +4,8 @@ use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
+use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::SynthesisContext;
 use fbcrowd_sim::synthesis::command::plan_requesting;
 use fbcrowd_sim::synthesis::{HmsParams, Modes};
@@ -242,4 +244,44 @@ fn a_standing_body_stands_on_the_ground() {
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn a_body_made_of_steps_stands_on_the_ground() {
     real_contexts().iter().for_each(|(name, context)| check_standing(name, context));
+}
+
+/// Distances by which lone bodies come to rest beyond their goals, m.
+fn beyond_goals_m(db: MotionDb) -> Vec<f32> {
+    let agent = |index: usize| {
+        let position_m = Vec2::new(0.0, 5.0 * index as f32);
+        AgentSpec {
+            position_m,
+            goals_m: vec![position_m + (6.0 + 0.17 * index as f32) * Vec2::X],
+            radius_m: 0.25,
+            wall_radius_m: 0.2,
+            preferred_speed_mps: [0.9, 1.33, 1.6][index % 3],
+            ..AgentSpec::default()
+        }
+    };
+    let scenario = Scenario { duration_s: 15.0, dt_s: DT_S, ..Scenario::of((0..12).map(agent).collect()) };
+    let mut simulation = Simulation::new(Arc::new(db), &scenario);
+    for _ in 0..(scenario.duration_s / DT_S) as usize {
+        simulation.step(&mut |_| {});
+    }
+    let frames = simulation.frames();
+    frames.iter().zip(&scenario.agents).map(|(frame, agent)| (frame.root.position_m - agent.goals_m[0]).x).collect()
+}
+
+/// Checks that bodies rest at their goals on average, and none farther off than `off_max_m`: half of a closing step.
+fn check_rests_at_goals(name: &str, db: MotionDb, off_max_m: f32) {
+    let beyond_m = beyond_goals_m(db);
+    let mean_m = beyond_m.iter().sum::<f32>() / beyond_m.len() as f32;
+    assert!(mean_m.abs() < 0.06 && beyond_m.iter().all(|m| m.abs() < off_max_m), "{name}: {mean_m} m, {beyond_m:?}");
+}
+
+#[test]
+fn lone_bodies_rest_at_their_goals() {
+    check_rests_at_goals("bundled", bundled(), 0.15);
+}
+
+#[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn lone_bodies_rest_at_their_goals_with_real_clips() {
+    check_rests_at_goals("Marine", marine(), 0.25);
 }

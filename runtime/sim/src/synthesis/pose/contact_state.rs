@@ -8,7 +8,7 @@ use motiondb::body::{RootFrame, Skeleton};
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot, pivot_rate_rad_s};
 use crate::synthesis::pose::leg::FootPose;
-use crate::synthesis::pose::leg_clearance::away_m;
+use crate::synthesis::pose::leg_clearance::{LAG_S, away_m};
 use crate::synthesis::pose::pelvis::PelvisDrop;
 use crate::synthesis::pose::posture::Posture;
 
@@ -41,19 +41,25 @@ impl ContactState {
         let (soles_m, pivot_rad) = (posture.soles_m(skeleton), step.dt_s * pivot_rate_rad_s(motion.turn_rate_rad_s));
         // The stance foot first: the other one avoids it.
         let first = usize::from(!self.locks[0].planted());
-        let mut locked = posture.feet;
+        let (mut locked, mut held) = (posture.feet, [false; 2]);
         for side in [first, 1 - first] {
             let (foot, other) = (&posture.feet[side], &posture.feet[1 - side]);
             let posed = posed_foot(frame, foot, soles_m[side]);
             let passes = side != first && self.locks[first].planted();
-            let away_m = || away_m(side, foot.ankle_m, other.ankle_m, locked[first].ankle_m);
-            let away_m = if passes { frame.forward.rotate(away_m()) } else { Vec2::ZERO };
+            let away_m = if passes {
+                let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
+                let ahead_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
+                frame.forward.rotate(away_m(side, ahead_m, other.ankle_m, locked[first].ankle_m))
+            } else {
+                Vec2::ZERO
+            };
             let (planted, ahead) = (motion.planted[side], motion.contacts_ahead[side]);
             let lock = self.locks[side].step(&posed, planted, ahead, away_m, pivot_rad, step);
+            held[side] = lock.is_held;
             locked[side] =
                 FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
         }
-        posture.lock_feet(locked, |needed_m| self.pelvis_drop.follow(needed_m, motion.is_new, step));
+        posture.lock_feet(locked, held, |drops_m| self.pelvis_drop.follow(drops_m, motion.is_new, step));
     }
 
     /// Records the soles as the legs could draw them.

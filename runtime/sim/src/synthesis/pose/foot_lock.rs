@@ -80,6 +80,8 @@ pub(crate) struct FootLock {
     lift_m: [f32; 3],
     /// Height of the lowest sole point of the pose's foot, m.
     height_m: f32,
+    /// Ankle of the pose's foot on the ground, m.
+    ankle_m: Vec2,
     /// Vector from heel to ball of the pose's foot, m.
     heading_m: Vec2,
     /// Heel, ball and toe tip of the drawn foot, m.
@@ -100,13 +102,16 @@ pub(crate) struct LockedFoot {
     pub ankle_m: Vec3,
     /// Twist ψ about the vertical.
     pub twist: Quat,
+    /// Whether the foot stood before and stands on.
+    pub is_held: bool,
 }
 
 impl FootLock {
     /// The lock of a foot that stands where the pose has it.
     pub(crate) fn new(posed: &PosedFoot) -> Self {
         let (lowest, height_m) = posed.lowest();
-        Self { lowest, height_m, heading_m: posed.heading_m(), sole_m: posed.sole_m, ..Self::default() }
+        let (heading_m, ankle_m) = (posed.heading_m(), posed.ankle_m.truncate());
+        Self { lowest, height_m, heading_m, ankle_m, sole_m: posed.sole_m, ..Self::default() }
     }
 
     /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later,
@@ -124,15 +129,23 @@ impl FootLock {
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
         // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
-        if planted && self.planted {
+        let is_held = planted && self.planted;
+        if is_held {
             self.hold(posed, lowest, [angle_between_rad(self.heading_m, heading_m), pivot_rad], step);
         } else {
             self.release(away_m, step);
             self.land(posed, lowest, step);
         }
-        (self.planted, self.lowest, self.heading_m) = (planted, lowest, heading_m);
+        (self.planted, self.lowest, self.heading_m, self.ankle_m) =
+            (planted, lowest, heading_m, posed.ankle_m.truncate());
         self.lift(height_m, contact_ahead, step);
-        LockedFoot { ankle_m: posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]), twist: yaw(self.twist_rad[0]) }
+        let ankle_m = posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]);
+        LockedFoot { ankle_m, twist: yaw(self.twist_rad[0]), is_held }
+    }
+
+    /// Displacement of the pose's ankle on the ground since the last step, m.
+    pub(crate) fn posed_displacement_m(&self, posed: &PosedFoot) -> Vec2 {
+        posed.ankle_m.truncate() - self.ankle_m
     }
 
     /// Shift c of a planted foot, m.

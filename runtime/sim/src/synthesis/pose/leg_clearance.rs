@@ -3,6 +3,7 @@
 //! Shanks do not cross in the examples. But a planted foot stays where it is while the body turns, side-steps or
 //! changes direction, and the swinging one would pass through it. Where the stance foot is nearer to the path of the
 //! swinging foot than in the pose, that foot moves outward by the difference. A gap that the pose itself has is enough.
+//! The filter that moves the foot lags. So the displacement is that of the position which the foot reaches after this time.
 //!
 //! Frame of the drawn body (x forward, y left), metres.
 
@@ -13,16 +14,18 @@ use motiondb::body::Side;
 const GAP_M: f32 = 0.14;
 /// Distance along the facing beyond which the legs do not meet, m.
 const APART_M: f32 = 0.35;
+/// Lag of the filter that moves the foot, s: 3/r of `LOCK_RELEASE_RATE_HZ`.
+pub(crate) const LAG_S: f32 = 0.1;
 /// Greatest displacement, m: a step across ends where the foot can land.
 const AWAY_MAX_M: f32 = 0.15;
 
-/// Displacement of a swinging foot from the pose's, m, given the ankles of swinging and stance foot in the pose, and
+/// Displacement of a swinging foot from the pose's, m, given its ankle [`LAG_S`] later and the stance ankle in the pose, and
 /// the stance ankle as it is locked. `side` is that of the swinging foot.
-pub(crate) fn away_m(side: usize, swing_m: Vec3, stance_m: Vec3, locked_m: Vec3) -> Vec2 {
+pub(crate) fn away_m(side: usize, ahead_m: Vec3, stance_m: Vec3, locked_m: Vec3) -> Vec2 {
     let sign = Side::BOTH[side].sign();
-    let gap_m = |stance_m: Vec3| sign * (swing_m.y - stance_m.y);
+    let gap_m = |stance_m: Vec3| sign * (ahead_m.y - stance_m.y);
     let lacking_m = gap_m(stance_m).min(GAP_M) - gap_m(locked_m);
-    let along = ((swing_m.x - locked_m.x) / APART_M).clamp(-1.0, 1.0);
+    let along = ((ahead_m.x - locked_m.x) / APART_M).clamp(-1.0, 1.0);
     Vec2::new(0.0, sign * (1.0 - along * along) * lacking_m.clamp(0.0, AWAY_MAX_M))
 }
 

@@ -13,12 +13,13 @@
 //! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at
 //!   the pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of
 //!   both legs'.
-//! - *Over time*: the pelvis drops and rises at limited accelerations ([`PelvisDrop`]). A foot that leaves the
-//!   ground far behind needs no drop from one moment to the next.
+//! - *Over time*: the pelvis drops and rises at limited accelerations ([`PelvisDrop`]), and comes softly to the height
+//!   of the pose. A foot that leaves the ground far behind needs no drop from one moment to the next, and a swinging foot
+//!   may be out of reach for a moment. A held foot may not.
 //!
 //! Root frame (x forward, y left, z up), metres.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use crate::maths::decay::soft_maximum;
 use crate::synthesis::TimeStep;
@@ -37,11 +38,12 @@ pub(crate) const SOFTNESS_M: f32 = 0.014;
 /// Greatest upward acceleration that the pelvis has from the end of a drop, m/s². With that of walking, 4 m/s², it
 /// stays well below a lurch.
 const RISE_MPS2: f32 = 8.0;
-/// Greatest downward acceleration from a drop that begins, m/s², as long as the pelvis is at most [`LATE_MAX_M`] late.
+/// Greatest downward acceleration from a drop that begins, m/s², as long as held feet are in reach.
 const DROP_MPS2: f32 = 10.0;
 /// Acceleration at which the pelvis meets the needed drop, m/s²: less, because the motion itself may turn meanwhile.
 const MEETING_MPS2: f32 = 4.0;
-/// Height by which the pelvis may be above the needed drop, m: what straight legs still have beyond [`EXTENSION`].
+/// Height by which the pelvis may be above the drop that held feet need, m: what straight legs still have beyond
+/// [`EXTENSION`].
 const LATE_MAX_M: f32 = 0.006;
 /// Share of a negative D by which the pelvis rises in a deformed walk. At 1, short strides would lift the pelvis higher
 /// at foot strike than at mid-stance.
@@ -64,16 +66,20 @@ pub(crate) struct PelvisDrop {
 }
 
 impl PelvisDrop {
-    /// The drop after a step in which `needed_m` is needed, m. In the first step after a switch (`is_new_motion`) the
-    /// needed drop jumps with the pose, and inertialization carries the jump.
-    pub(crate) fn follow(&mut self, needed_m: f32, is_new_motion: bool, step: &TimeStep) -> f32 {
+    /// The drop after a step in which `needed_m` is needed in all, and `held_m` by the feet that are held, m. In the first
+    /// step after a switch (`is_new_motion`) the needed drop jumps with the pose, and inertialization carries the jump.
+    pub(crate) fn follow(&mut self, [needed_m, held_m]: [f32; 2], is_new_motion: bool, step: &TimeStep) -> f32 {
         if !is_new_motion {
             self.needed_mps = (needed_m - self.needed_m) / step.dt_s;
         }
         let (least_mps, greatest_mps) = (self.rate_mps - RISE_MPS2 * step.dt_s, self.rate_mps + DROP_MPS2 * step.dt_s);
         let rate_mps = (self.needed_mps - meeting_mps(self.lag_m, step.dt_s)).clamp(least_mps, greatest_mps);
+        let drop_m = needed_m - step.dt_s * self.needed_mps + self.lag_m;
+        let to_pose_m = (drop_m - needed_m.min(0.0)).max(0.0);
+        let rate_mps = rate_mps.max(-meeting_mps(to_pose_m, step.dt_s));
         let lag_m = self.lag_m + step.dt_s * (rate_mps - self.needed_mps);
-        let lag_m = lag_m.clamp(-LATE_MAX_M, (DROP_MAX_M - needed_m).max(0.0));
+        let late_max_m = LATE_MAX_M + (needed_m - held_m).max(0.0);
+        let lag_m = lag_m.clamp(-late_max_m, (DROP_MAX_M - needed_m).max(0.0));
         self.rate_mps = self.needed_mps + (lag_m - self.lag_m) / step.dt_s;
         (self.lag_m, self.needed_m) = (lag_m, needed_m);
         needed_m + lag_m
@@ -105,10 +111,19 @@ fn soft_greater_m(a_m: f32, b_m: f32) -> f32 {
     b_m + DEFORMED_SOFTNESS_M * soft_maximum((a_m - b_m) / DEFORMED_SOFTNESS_M)
 }
 
-/// Drop that the legs require where locks move the feet from the pose's `own` to `targets`, m.
-pub(crate) fn locked_drop_m(legs: &[PosedLeg; 2], own: &[FootPose; 2], targets: &[FootPose; 2]) -> f32 {
-    let [left_m, right_m] = needed_drops_m(legs, own, targets).map(required_drop_m);
-    libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M)
+/// Drop that the legs require where locks move the feet from the pose's `own` to `targets`, and the drop at which those
+/// that are `held` are just in reach, negative where legs reach further, m.
+pub(crate) fn locked_drops_m(
+    legs: &[PosedLeg; 2],
+    own: &[FootPose; 2],
+    targets: &[FootPose; 2],
+    held: [bool; 2],
+) -> [f32; 2] {
+    let needed_m = needed_drops_m(legs, own, targets);
+    let [left_m, right_m] = needed_m.map(required_drop_m);
+    let required_m = libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M);
+    let of_held = needed_m.into_iter().zip(held).filter(|(_, is_held)| *is_held);
+    [required_m, of_held.map(|([target_m, _], _)| target_m).fold(f32::NEG_INFINITY, f32::max)]
 }
 
 /// [d, d⁰] of each leg, m.
@@ -130,6 +145,19 @@ fn required_drop_m([target_m, own_m]: [f32; 2]) -> f32 {
 fn length_max_m(leg: &PosedLeg, own: &FootPose) -> f32 {
     let leg_m = leg.bones_m[0] + leg.bones_m[1];
     own.ankle_m.distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m)
+}
+
+/// The point to which a leg stretches for an ankle, m. Beyond the length that the pose has, and [`EXTENSION`], the leg nears
+/// [`EXTENSION_MAX`] ever more slowly: its knee would snap where it comes to its end at a speed.
+pub(crate) fn softly_reached_m(leg: &PosedLeg, ankle_m: Vec3) -> Vec3 {
+    let (leg_m, to_ankle_m) = (leg.bones_m[0] + leg.bones_m[1], ankle_m - leg.hip_m());
+    let length_m = to_ankle_m.length();
+    let [free_m, end_m] = [length_max_m(leg, &leg.foot()), EXTENSION_MAX * leg_m];
+    let (more_m, room_m) = (length_m - free_m, end_m - free_m);
+    if more_m <= 0.0 || room_m <= 0.0 {
+        return ankle_m;
+    }
+    leg.hip_m() + to_ankle_m * ((free_m + room_m * (1.0 - libm::expf(-more_m / room_m))) / length_m)
 }
 
 /// Drop of the hip by which its leg just reaches a foot, m; negative where the leg reaches it.
@@ -164,7 +192,7 @@ mod tests {
         let mut feet = own;
         feet[1].ankle_m.x -= behind_m;
         let needed_m = needed_drop_m(&legs[1], length_max_m(&legs[1], &own[1]), &feet[1]);
-        (locked_drop_m(&legs, &own, &feet), needed_m)
+        (locked_drops_m(&legs, &own, &feet, [true; 2])[0], needed_m)
     }
 
     #[test]
@@ -190,6 +218,21 @@ mod tests {
     }
 
     #[test]
+    fn a_leg_stretches_softly_to_its_end() {
+        let ([leg, _], _) = flexed(0.5);
+        let leg_m = leg.bones_m[0] + leg.bones_m[1];
+        let reached = |length: f32| {
+            let ankle_m = leg.hip_m() - length * leg_m * Vec3::Z;
+            softly_reached_m(&leg, ankle_m).distance(leg.hip_m()) / leg_m
+        };
+        assert!([0.5, 0.9, 0.989].into_iter().all(|length| (reached(length) - length).abs() < 1e-6));
+        let lengths: Vec<f32> = (0..40).map(|step| reached(0.98 + 0.001 * step as f32)).collect();
+        assert!(lengths.is_sorted() && lengths[39] < EXTENSION_MAX && lengths[39] > 0.998);
+        let slopes: Vec<f32> = lengths.windows(2).map(|pair| (pair[1] - pair[0]) / 0.001).collect();
+        assert!(slopes.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.15), "{slopes:?}");
+    }
+
+    #[test]
     fn a_deformed_walk_keeps_its_height() {
         assert!(spread_drop_m(0.15, 0.0).abs() < 1e-6 && spread_drop_m(0.6, 0.0).abs() < 1e-6);
         let step_m = 0.005;
@@ -204,7 +247,8 @@ mod tests {
         let step = TimeStep::new(1.0 / 120.0);
         let mut drop = PelvisDrop::default();
         let required_m = (0..120).map(|step| if (30..60).contains(&step) { 0.002 * (step - 30) as f32 } else { 0.0 });
-        let drops_m: Vec<f32> = required_m.clone().map(|required_m| drop.follow(required_m, false, &step)).collect();
+        let drops_m: Vec<f32> =
+            required_m.clone().map(|required_m| drop.follow([required_m; 2], false, &step)).collect();
         assert!(required_m.zip(&drops_m).all(|(required_m, &drop_m)| drop_m >= required_m - LATE_MAX_M));
         let rising = drops_m[59..].windows(3);
         let accelerations_mps2 = rising.map(|three| (three[0] - 2.0 * three[1] + three[2]).abs() * 120.0 * 120.0);
@@ -216,8 +260,38 @@ mod tests {
         let step = TimeStep::new(1.0 / 120.0);
         let mut drop = PelvisDrop::default();
         let needed_m = (0..60).map(|step: i32| (0.03 * step as f32).min(DROP_MAX_M));
-        let deepest_m = needed_m.map(|needed_m| drop.follow(needed_m, false, &step)).fold(0.0, f32::max);
+        let deepest_m = needed_m.map(|needed_m| drop.follow([needed_m; 2], false, &step)).fold(0.0, f32::max);
         assert!(deepest_m <= DROP_MAX_M, "{deepest_m}");
+    }
+
+    /// Greatest vertical acceleration from 0.5 s on of a pelvis whose feet need drops, step by step, m/s²; `held` where the
+    /// feet are held.
+    fn greatest_mps2(needed_m: impl Fn(usize) -> f32, held: bool) -> f32 {
+        let step = TimeStep::new(1.0 / 120.0);
+        let mut drop = PelvisDrop::default();
+        let held_m = |needed_m: f32| if held { needed_m } else { f32::NEG_INFINITY };
+        let drops_m: Vec<f32> =
+            (0..180).map(needed_m).map(|needed_m| drop.follow([needed_m, held_m(needed_m)], false, &step)).collect();
+        let bends_m = drops_m[60..].windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs());
+        bends_m.fold(0.0, f32::max) / (step.dt_s * step.dt_s)
+    }
+
+    #[test]
+    fn a_swinging_foot_out_of_reach_is_no_lurch() {
+        let jump_m = |step: usize| if step < 70 { 0.0 } else { 0.08 };
+        assert!(greatest_mps2(jump_m, false) < 1.1 * DROP_MPS2);
+    }
+
+    #[test]
+    fn the_pelvis_comes_softly_to_the_height_of_the_pose() {
+        let rise_m = |step: usize| (0.1 - 0.008 * step.saturating_sub(70) as f32).max(0.0);
+        let released_m = |step: usize| {
+            let left_m = 0.1 - 0.0025 * step.saturating_sub(70) as f32;
+            if left_m > 0.025 { left_m } else { 0.0 }
+        };
+        for needed_m in [&rise_m as &dyn Fn(usize) -> f32, &released_m] {
+            assert!(greatest_mps2(needed_m, true) < 1.1 * RISE_MPS2, "{}", greatest_mps2(needed_m, true));
+        }
     }
 
     #[test]
@@ -225,8 +299,8 @@ mod tests {
         let step = TimeStep::new(1.0 / 120.0);
         let mut drop = PelvisDrop::default();
         let mut lags_m = (0..30).map(|step| if step < 15 { 0.05 } else { 0.0 }).collect::<Vec<f32>>();
-        lags_m.iter_mut().for_each(|needed_m| *needed_m = drop.follow(*needed_m, false, &step) - *needed_m);
-        let lag_m = drop.follow(0.03, true, &step) - 0.03;
+        lags_m.iter_mut().for_each(|needed_m| *needed_m = drop.follow([*needed_m; 2], false, &step) - *needed_m);
+        let lag_m = drop.follow([0.03; 2], true, &step) - 0.03;
         assert!(lag_m > 0.01 && (lag_m - (2.0 * lags_m[29] - lags_m[28])).abs() < 1e-3, "{lag_m} {lags_m:?}");
     }
 
