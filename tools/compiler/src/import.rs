@@ -14,7 +14,6 @@
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
-use glam::DQuat;
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
@@ -26,7 +25,6 @@ use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
 use crate::input::clip_settings::ClipSettings;
-use crate::read::axis::Axis;
 use crate::read::bvh;
 use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::GltfFile;
@@ -35,7 +33,7 @@ use crate::read::source_motion::SourceMotion;
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
-use crate::rig::{self, roles::Roles};
+use crate::rig::{self, rest_pose::RestPose, roles::Roles};
 
 /// Number of bytes that are read of a file at once.
 const READ_BYTES: usize = 1 << 16;
@@ -248,14 +246,6 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
 }
 
-/// What a rest pose shows.
-struct RestPose {
-    /// Axis nearest to the direction from ankles to hips, source axes.
-    up: Axis,
-    /// Rotation of an upright head in the frame of the source's head joint.
-    head_offset: Option<DQuat>,
-}
-
 /// The joints that have roles and the extra joints, in all frames; their roles; and what the rest pose shows. Memory: the
 /// poses of all joints never exist at once.
 fn clip_with_roles(
@@ -267,10 +257,7 @@ fn clip_with_roles(
     let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
     let mut roles = rig::find_roles(&sample, &known)?;
     let rest = motion.rest();
-    let rest = RestPose {
-        up: rig::rest_head::rest_up(&rest, &roles),
-        head_offset: rig::rest_head::rest_offset(&motion.head.joints, &rest, &roles),
-    };
+    let rest = RestPose::of(&motion.head.joints, &rest, &roles);
     let extra = extra_joints(&sample, &roles);
     roles.extra = extra.kept;
     let left_out = Note::JointsLeftOut { moving: extra.left_out as u32, kept: roles.extra.len() as u32 };

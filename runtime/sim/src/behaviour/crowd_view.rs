@@ -34,7 +34,7 @@ pub struct CrowdView<'a> {
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
     /// Whether an agent, by index, has come to the goal that it had in the last step: its body stands there, or comes to rest
     /// there, or was pushed no farther than a step away.
-    pub stands_at_goal: &'a (dyn Fn(usize) -> bool + Sync),
+    pub has_come_to_goal: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether an agent, by index, has begun; before, it enters no state.
     pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether no wall of an agent in a state, both by index, covers a position.

@@ -5,7 +5,7 @@
 //!
 //! Read `polygons` (free space), [`mesh`] (its triangles) and [`field`] (shortest routes over it); then `crowd_routes`
 //! (the routes of all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path`
-//! (v_pref and facing along waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and
+//! (v_pref and facing along waypoints) with `rounded_waypoint` and `braking`, and `arrival` (when an agent has arrived); `reach` finds unreachable goals and
 //! closed passages before a simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
 //!
 //! ```
@@ -28,6 +28,7 @@
 
 pub(crate) mod area_reach;
 pub(crate) mod arrival;
+pub(crate) mod braking;
 pub mod crowd_routes;
 pub(crate) mod door_routes;
 pub mod field;
@@ -37,10 +38,12 @@ pub(crate) mod params;
 pub(crate) mod path;
 pub(crate) mod polygons;
 pub(crate) mod reach;
+pub(crate) mod rounded_waypoint;
 pub(crate) mod steering;
 
+pub use braking::Braking;
 pub use crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
 pub use door_routes::ClosedDoors;
 pub use params::{KeepSide, RouteParams};
-pub use path::{Braking, PathProgress, PreferredMotion, RouteView, preferred_motion};
+pub use path::{PathProgress, PreferredMotion, RouteView, preferred_motion};
 pub use reach::{ClosedToAgents, closed_to_agents};

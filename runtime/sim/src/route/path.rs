@@ -6,24 +6,15 @@
 
 use glam::Vec2;
 
+use crate::route::braking::{Braking, braking_speed_mps};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, RouteMemory};
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
+use crate::route::rounded_waypoint::RoundedWaypoint;
 use crate::route::steering::{self, Heading};
-use crate::scenario::{AgentSpec, Coupling};
+use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
 
-/// Distance within which an agent beyond a waypoint has passed it, m: two agents abreast fill the path about the
-/// waypoint, and a third that turned the corner beside them would otherwise come back.
-const BESIDE_M: f32 = 1.0;
-/// Distance aside up to which a waypoint is rounded in full, m; at [`BESIDE_M`] it is not rounded at all.
-const ROUNDED_M: f32 = 0.5;
-/// Time before a waypoint at which rounding begins, s: 0.9 m at a walk (docs/tuning.md).
-const ROUNDING_S: f32 = 0.7;
-/// Cosine of the sharpest turn that is rounded, 120°. To turn further, an agent first walks to the waypoint.
-const ROUNDED_COS: f32 = -0.5;
-/// Distance within which a waypoint of such a turn is reached, m: the radius of an arrival.
-const WAYPOINT_RADIUS_M: f32 = 0.5;
 /// Distance within which the last goal is reached, m, beside the distance that the body coasts: half a step.
 const GOAL_RADIUS_M: f32 = 0.2;
 /// Distance beyond which an agent that was pushed away walks to its last goal again, m. At 0.4 m bodies of slow
@@ -33,46 +24,6 @@ const GOAL_LEFT_RADIUS_M: f32 = 0.6;
 const LEANS_M: f32 = 0.03;
 /// Distance from the mesh within which a goal lies on it, m: rounding.
 const ON_MESH_M: f32 = 1e-3;
-/// Even braking before the last goal, m/s²: a third of what a person can do at most.
-const BRAKING_MPS2: f32 = 1.0;
-/// Time remaining on the last stretch, s: there the speed falls with the distance.
-const STOPPING_TIME_S: f32 = 0.5;
-/// Time for which a body goes on at its speed beyond the point where its agent prefers to rest, s: plans lag behind v_pref,
-/// and the feet close (docs/tuning.md).
-const COAST_S: f32 = 0.2;
-
-/// How an agent slows down before its last goal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Braking {
-    /// As a body can: evenly, and so early that it rests at the goal after it has coasted; then it stays until it is
-    /// pushed away.
-    Evenly {
-        /// Velocity at which the body coasts once v_pref is 0, world, m/s; 0 of a disc that stops at once.
-        velocity_mps: Vec2,
-    },
-    /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
-    /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
-    Within(f32),
-    /// Not at all: the agent walks through its goal, where it leaves the scene.
-    Not,
-}
-
-impl Braking {
-    /// How an agent at a velocity slows down, by the coupling of its simulation, in steps of `dt_s`.
-    pub(crate) fn of(coupling: Coupling, velocity_mps: Vec2, dt_s: f32) -> Self {
-        match coupling {
-            Coupling::TwoWay => Self::Evenly { velocity_mps },
-            Coupling::Decoupled => Self::Evenly { velocity_mps: Vec2::ZERO },
-            Coupling::Discs => Self::Within(dt_s),
-        }
-    }
-
-    /// Distance that the body still moves in a direction after v_pref is 0, m.
-    pub(crate) fn coast_m(self, direction: Vec2) -> f32 {
-        if let Self::Evenly { velocity_mps } = self { COAST_S * velocity_mps.dot(direction).max(0.0) } else { 0.0 }
-    }
-}
-
 /// How far an agent has come along its waypoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathProgress {
@@ -266,60 +217,11 @@ impl Stretch {
     }
 }
 
-/// A waypoint that is not the last one, and how it is rounded.
-struct RoundedWaypoint {
-    waypoint_m: Vec2,
-    after_m: Vec2,
-    /// Unit vector onwards, across the bisector of the paths to and from the waypoint; none where the turn is too sharp
-    /// to be rounded.
-    onwards: Option<Vec2>,
-    /// Distance before the bisector at which rounding begins, m.
-    rounding_m: f32,
-}
-
-impl RoundedWaypoint {
-    fn new(agent: &AgentSpec, waypoint: usize) -> Self {
-        let [waypoint_m, after_m] = [agent.goals_m[waypoint], agent.goals_m[waypoint + 1]];
-        let before_m = waypoint.checked_sub(1).map_or(agent.position_m, |before| agent.goals_m[before]);
-        let [to, from] = [waypoint_m - before_m, after_m - waypoint_m].map(Vec2::normalize_or_zero);
-        let onwards = (to + from).try_normalize().filter(|_| to.dot(from) > ROUNDED_COS);
-        let rounding_m = ROUNDING_S * agent.preferred_speed_mps * onwards.map_or(0.0, |onwards| onwards.dot(to));
-        Self { waypoint_m, after_m, onwards, rounding_m }
-    }
-
-    /// Whether the waypoint lies behind, and not far aside; before a sharp turn, whether it is near.
-    fn is_passed(&self, position_m: Vec2) -> bool {
-        let beyond_m = position_m - self.waypoint_m;
-        match self.onwards {
-            Some(onwards) => beyond_m.dot(onwards) >= 0.0 && beyond_m.length() < BESIDE_M,
-            None => beyond_m.length() < WAYPOINT_RADIUS_M,
-        }
-    }
-
-    /// Unit direction of v_pref: to the waypoint, turning towards the one after as the bisector comes near.
-    fn direction(&self, position_m: Vec2) -> Vec2 {
-        let [to, after] = [self.waypoint_m, self.after_m].map(|goal_m| (goal_m - position_m).normalize_or_zero());
-        let Some(onwards) = self.onwards else { return to };
-        let beyond_m = position_m - self.waypoint_m;
-        let before_m = -beyond_m.dot(onwards);
-        let near = if before_m > 0.0 { (1.0 - before_m / self.rounding_m).max(0.0) } else { 0.0 };
-        let abreast = ((BESIDE_M - beyond_m.perp_dot(onwards).abs()) / (BESIDE_M - ROUNDED_M)).clamp(0.0, 1.0);
-        to.lerp(after, near * abreast).normalize_or(to)
-    }
-}
-
-/// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.
-pub(crate) fn braking_speed_mps(distance_m: f32) -> f32 {
-    let last_stretch_m = BRAKING_MPS2 * STOPPING_TIME_S * STOPPING_TIME_S;
-    if distance_m < last_stretch_m {
-        return distance_m / STOPPING_TIME_S;
-    }
-    libm::sqrtf(2.0 * BRAKING_MPS2 * (distance_m - 0.5 * last_stretch_m))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::route::braking::{BRAKING_MPS2, COAST_S};
+    use crate::route::rounded_waypoint::WAYPOINT_RADIUS_M;
     use crate::scenario::Scenario;
 
     const DT_S: f32 = 1.0 / 30.0;

@@ -55,7 +55,7 @@ impl Simulation {
             route_m: &|of, from_m, at| to_area_m(routes.present(), of, from_m, at),
             open_route_m: doors.is_any_red().then_some(&open_route_m),
             path_end_m: &|index| path_end_m(agents, population, index),
-            stands_at_goal: &|index| agents.progress[index].arrived,
+            has_come_to_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
             is_clear: &|(index, state), position_m| {
                 let walls = zone_walls.of(closed_zones(index, state)).unwrap_or(obstacles);

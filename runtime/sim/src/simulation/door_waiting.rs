@@ -6,7 +6,7 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::route::path::{Braking, braking_speed_mps};
+use crate::route::braking::{Braking, braking_speed_mps};
 use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
 
 /// Distance from a closed door at which the disc of an agent stands, m: its feet and arms clear the door.

@@ -3,8 +3,9 @@
 use glam::Vec2;
 
 use crate::behaviour::{AgentState, Aim};
+use crate::route::braking::Braking;
 use crate::route::crowd_routes::{MeshClass, RouteEnd, RouteMemory};
-use crate::route::path::{self, Braking, PathProgress, PreferredMotion, RouteView, Walker};
+use crate::route::path::{self, PathProgress, PreferredMotion, RouteView, Walker};
 use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::ranges::COORDINATE_MAX_M;
 use crate::scenario::{AgentSpec, AtGoal};

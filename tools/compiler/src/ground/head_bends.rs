@@ -5,7 +5,7 @@
 //!
 //! - Three or more clips of one rig share the median of their offsets. Each keeps how far its head is bent down or up
 //!   against it.
-//! - Of fewer clips the rest pose shows the offset, where it is a body that stands ([`crate::rig::rest_head`]). A head
+//! - Of fewer clips the rest pose shows the offset, where it is a body that stands ([`crate::rig::rest_pose`]). A head
 //!   that is bent far down against it stays bent. People look down; heads that are far up are those of rest poses that
 //!   look down.
 //!

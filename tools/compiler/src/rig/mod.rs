@@ -4,12 +4,12 @@
 //!
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
 //! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
-//! characters), `surplus_legs` (bodies with more than two legs), `rig_head` (what the clips of one rig share) and `rest_head`.
+//! characters), `surplus_legs` (bodies with more than two legs), `rig_head` (what the clips of one rig share) and `rest_pose`.
 
 mod body_plan;
 pub(crate) mod joint_names;
 mod limb;
-pub(crate) mod rest_head;
+pub(crate) mod rest_pose;
 pub(crate) mod rig_head;
 mod role_assignment;
 mod role_search;

@@ -226,5 +226,5 @@ pub(crate) fn to_goal_m(
         }
     };
     let is_of_this_state = agent.entered_s < view.time_s;
-    Some(if is_of_this_state && (view.stands_at_goal)(index) { 0.0 } else { distance_m })
+    Some(if is_of_this_state && (view.has_come_to_goal)(index) { 0.0 } else { distance_m })
 }

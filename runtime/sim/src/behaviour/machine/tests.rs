@@ -51,7 +51,7 @@ impl Points {
             route_m: &route_m,
             open_route_m: None,
             path_end_m: &|_| None,
-            stands_at_goal: &|_| false,
+            has_come_to_goal: &|_| false,
             is_clear: &|_, _| true,
             has_begun: &|_| true,
         };

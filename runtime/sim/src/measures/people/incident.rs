@@ -51,8 +51,8 @@ pub struct Incident {
 }
 
 impl Incident {
-    /// The incidents of a body, given the samples that a measure counts, in order. Samples that are at most
-    /// `gap_s` apart are one incident.
+    /// The incidents of a body, given the samples that a measure counts, in order. Samples that are at most `gap_s` apart
+    /// are one incident.
     pub(crate) fn of_track(
         kind: IncidentKind,
         track: &BodyTrack,

@@ -19,7 +19,8 @@ use motiondb::body::{Pose, Skeleton};
 
 use crate::maths::decay::soft_maximum;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg};
-use crate::synthesis::pose::pelvis::{EXTENSION, SOFTNESS_M};
+use crate::synthesis::pose::leg_length::EXTENSION;
+use crate::synthesis::pose::pelvis::SOFTNESS_M;
 
 /// Limit of the angle by which a heel rises, rad: half of the foot's turn until toe-off in a quick walk.
 const RISE_MAX_RAD: f32 = 0.6;

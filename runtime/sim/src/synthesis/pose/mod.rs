@@ -2,7 +2,7 @@
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`,
+//! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `leg_clearance`,
 //! `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step; `lean` tilts the body where
 //! it accelerates; `upper_body` holds what trunk, head and arms do.
 
@@ -13,6 +13,7 @@ pub(crate) mod ik;
 pub(crate) mod lean;
 pub(crate) mod leg;
 pub(crate) mod leg_clearance;
+pub(crate) mod leg_length;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
 pub(crate) mod upper_body;

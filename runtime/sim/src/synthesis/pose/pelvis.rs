@@ -19,18 +19,13 @@
 //!
 //! Root frame (x forward, y left, z up), metres.
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 use crate::maths::decay::soft_maximum;
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg};
+use crate::synthesis::pose::leg_length::length_max_m;
 
-/// Greatest length of a leg, divided by thigh plus shank, before the pelvis drops. A pose with a straighter leg keeps
-/// it.
-pub(crate) const EXTENSION: f32 = 0.99;
-/// Greatest length of a leg, divided by thigh plus shank, in any case: a knee flexed by 6°. A blend may be straighter
-/// than its examples; beyond this the knee would snap at the end of the leg.
-const EXTENSION_MAX: f32 = 0.9985;
 /// Greatest drop of the pelvis, m.
 pub(crate) const DROP_MAX_M: f32 = 0.12;
 /// Softness s for locked feet, m: less than the hips bob in walking. At 0.01 m knees snap at stops.
@@ -43,7 +38,7 @@ const DROP_MPS2: f32 = 10.0;
 /// Acceleration at which the pelvis meets the needed drop, m/s²: less, because the motion itself may turn meanwhile.
 const MEETING_MPS2: f32 = 4.0;
 /// Height by which the pelvis may be above the drop that held feet need, m: what straight legs still have beyond
-/// [`EXTENSION`].
+/// [`EXTENSION`](crate::synthesis::pose::leg_length::EXTENSION).
 const LATE_MAX_M: f32 = 0.006;
 /// Share of a negative D by which the pelvis rises in a deformed walk. At 1, short strides would lift the pelvis higher
 /// at foot strike than at mid-stance.
@@ -141,25 +136,6 @@ fn required_drop_m([target_m, own_m]: [f32; 2]) -> f32 {
     SOFTNESS_M * (own + more - own / ((1.0 + more) * (1.0 + more)))
 }
 
-/// Greatest distance from hip to ankle: at most that of the pose, within the limits, m.
-fn length_max_m(leg: &PosedLeg, own: &FootPose) -> f32 {
-    let leg_m = leg.bones_m[0] + leg.bones_m[1];
-    own.ankle_m.distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m)
-}
-
-/// The point to which a leg stretches for an ankle, m. Beyond the length that the pose has, and [`EXTENSION`], the leg nears
-/// [`EXTENSION_MAX`] ever more slowly: its knee would snap where it comes to its end at a speed.
-pub(crate) fn softly_reached_m(leg: &PosedLeg, ankle_m: Vec3) -> Vec3 {
-    let (leg_m, to_ankle_m) = (leg.bones_m[0] + leg.bones_m[1], ankle_m - leg.hip_m());
-    let length_m = to_ankle_m.length();
-    let [free_m, end_m] = [length_max_m(leg, &leg.foot()), EXTENSION_MAX * leg_m];
-    let (more_m, room_m) = (length_m - free_m, end_m - free_m);
-    if more_m <= 0.0 || room_m <= 0.0 {
-        return ankle_m;
-    }
-    leg.hip_m() + to_ankle_m * ((free_m + room_m * (1.0 - libm::expf(-more_m / room_m))) / length_m)
-}
-
 /// Drop of the hip by which its leg just reaches a foot, m; negative where the leg reaches it.
 fn needed_drop_m(leg: &PosedLeg, length_max_m: f32, foot: &FootPose) -> f32 {
     let to_foot_m = foot.ankle_m - leg.hip_m();
@@ -215,21 +191,6 @@ mod tests {
         feet[0].ankle_m.x += spread_m;
         feet[1].ankle_m.x -= spread_m;
         deformed_drop_m(&legs, &feet)
-    }
-
-    #[test]
-    fn a_leg_stretches_softly_to_its_end() {
-        let ([leg, _], _) = flexed(0.5);
-        let leg_m = leg.bones_m[0] + leg.bones_m[1];
-        let reached = |length: f32| {
-            let ankle_m = leg.hip_m() - length * leg_m * Vec3::Z;
-            softly_reached_m(&leg, ankle_m).distance(leg.hip_m()) / leg_m
-        };
-        assert!([0.5, 0.9, 0.989].into_iter().all(|length| (reached(length) - length).abs() < 1e-6));
-        let lengths: Vec<f32> = (0..40).map(|step| reached(0.98 + 0.001 * step as f32)).collect();
-        assert!(lengths.is_sorted() && lengths[39] < EXTENSION_MAX && lengths[39] > 0.998);
-        let slopes: Vec<f32> = lengths.windows(2).map(|pair| (pair[1] - pair[0]) / 0.001).collect();
-        assert!(slopes.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.15), "{slopes:?}");
     }
 
     #[test]

@@ -8,6 +8,7 @@ use motiondb::body::{Pose, Skeleton};
 
 use crate::synthesis::pose::lean::incline::incline;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg, legs};
+use crate::synthesis::pose::leg_length::softly_reached_m;
 use crate::synthesis::pose::{heel_rise, ik, pelvis};
 
 /// A pose and the targets of its feet.
@@ -23,15 +24,13 @@ pub struct Posture {
     pub contacts: [f32; 2],
     /// Drop of the pelvis so far, m; negative where it has risen.
     lowered_m: f32,
-    /// Whether no lock holds each foot: it swings, or has just landed.
-    swings: [bool; 2],
 }
 
 impl Posture {
     /// A pose whose feet are at their targets.
     pub fn new(pose: Pose, contacts: [f32; 2], skeleton: &Skeleton) -> Self {
         let legs = legs(&pose, skeleton);
-        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts, lowered_m: 0.0, swings: [false; 2] }
+        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts, lowered_m: 0.0 }
     }
 
     /// Takes the feet of the pose as targets, after a change of the pose.
@@ -49,13 +48,15 @@ impl Posture {
         self.feet = feet;
     }
 
-    /// Moves the targets to those of foot locks, some of which are `held`. `pelvis_drop` receives the whole drop of the
-    /// pelvis that the pose has and the legs require, and the part of it that held feet need, m, and returns the drop that
-    /// it makes.
-    pub fn lock_feet(&mut self, feet: [FootPose; 2], held: [bool; 2], pelvis_drop: impl FnOnce([f32; 2]) -> f32) {
+    /// Moves the targets to those of foot locks, some of which are `held`; legs stretch softly to the others. `pelvis_drop`
+    /// receives the whole drop of the pelvis that the pose has and the legs require, and the part of it that held feet need,
+    /// m, and returns the drop that it makes.
+    pub fn lock_feet(&mut self, mut feet: [FootPose; 2], held: [bool; 2], pelvis_drop: impl FnOnce([f32; 2]) -> f32) {
         let drops_m = pelvis::locked_drops_m(&self.legs, &self.feet, &feet, held);
-        self.swings = held.map(|is_held| !is_held);
         self.lower(pelvis_drop(drops_m.map(|drop_m| self.lowered_m + drop_m)) - self.lowered_m);
+        for ((leg, foot), _) in self.legs.iter().zip(&mut feet).zip(held).filter(|(_, is_held)| !is_held) {
+            foot.ankle_m = softly_reached_m(leg, foot.ankle_m);
+        }
         self.feet = feet;
     }
 
@@ -86,13 +87,9 @@ impl Posture {
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
     }
 
-    /// Bends the legs so that the feet reach their targets. A target out of reach moves to the nearest point in reach; a
-    /// swinging leg stretches softly.
+    /// Bends the legs so that the feet reach their targets. A target out of reach moves to the nearest point in reach.
     pub fn bend_legs(&mut self, skeleton: &Skeleton) {
         for (side, (leg, foot)) in self.legs.iter_mut().zip(&mut self.feet).enumerate() {
-            if self.swings[side] {
-                foot.ankle_m = pelvis::softly_reached_m(leg, foot.ankle_m);
-            }
             ik::reach(&mut self.pose, leg, skeleton, side, foot);
             *foot = leg.foot();
         }

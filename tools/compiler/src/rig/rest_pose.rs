@@ -19,15 +19,28 @@ const STRAIGHT_COSINE: f64 = 0.94;
 /// without joints (45°). A head whose end lies aside shows no direction: one such rig (CMU's for Poser) is 28° off.
 const HEAD_COSINE: f64 = 0.7;
 
-/// The axis nearest to the direction from ankles to hips in the rest pose; any axis where both coincide.
-pub(crate) fn rest_up(rest: &JointPoses, roles: &Roles) -> Axis {
+/// What a rest pose shows.
+pub(crate) struct RestPose {
+    /// Axis nearest to the direction from ankles to hips; any axis where both coincide.
+    pub(crate) up: Axis,
+    /// Rotation of an upright head in the frame of the source's head joint; none where the rest pose is no body that
+    /// stands.
+    pub(crate) head_offset: Option<DQuat>,
+}
+
+impl RestPose {
+    /// What the rest pose of a rig shows.
+    pub(crate) fn of(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Self {
+        Self { up: up_axis(rest, roles), head_offset: head_offset(joints, rest, roles) }
+    }
+}
+
+fn up_axis(rest: &JointPoses, roles: &Roles) -> Axis {
     let middle = |pair: [Joint; 2]| pair.map(|joint| rest.positions[roles.required(joint)]).into_iter().sum::<DVec3>();
     Axis::nearest(middle(Joint::THIGHS) - middle(Joint::FEET))
 }
 
-/// Rotation of an upright head in the frame of the source's head joint, by the rest pose; `None` where the rest pose is no
-/// body that stands.
-pub(crate) fn rest_offset(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Option<DQuat> {
+fn head_offset(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Option<DQuat> {
     let position = |joint: Joint| roles.joints[joint.index()].map(|joint| rest.positions[joint]);
     let middle = |pair: [Joint; 2]| Some(0.5 * (position(pair[0])? + position(pair[1])?));
     let [hips, ankles, shoulders] = [middle(Joint::THIGHS)?, middle(Joint::FEET)?, middle(Joint::UPPER_ARMS)?];
