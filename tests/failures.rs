@@ -90,6 +90,26 @@ fn a_read_only_output_is_refused() {
 }
 
 #[test]
+fn a_cache_that_is_a_file_is_refused() {
+    let folder = folder("cache_is_file");
+    fs::write(folder.join("cache"), "notes").unwrap();
+    let (database, cache) = (folder.join("a.fbdb"), folder.join("cache"));
+    let arguments = ["compile", WALK, "-o", text(&database), "--cache", text(&cache)];
+    fbcrowd(&arguments).expect_code(2).says(&[text(&cache), "name another folder"]);
+    assert!(!database.exists());
+}
+
+#[test]
+fn other_formats_are_named() {
+    let folder = folder("other_formats");
+    let clip = folder.join("walk.fbx");
+    fs::write(&clip, b"Kaydara FBX Binary  \0\x1a\0").unwrap();
+    for command in [&["inspect", text(&clip)][..], &["compile", text(&clip), "-o", text(&folder.join("a.fbdb"))]] {
+        fbcrowd(command).expect_code(2).says(&["walk.fbx", "an FBX file", "glTF"]);
+    }
+}
+
+#[test]
 fn a_run_replaces_none_of_its_inputs() {
     let folder = folder("run_over_inputs");
     let database = compile(&[WALK.to_owned()], &folder);

@@ -13,6 +13,7 @@ use motiondb_compiler::{
 use crate::clip_paths::{check_output, manifest};
 use crate::error::JobError;
 use crate::observer::{JobEvent, Observer, Work};
+use crate::output_path::is_of_path;
 
 /// Options that override those of a manifest.
 #[derive(Default)]
@@ -62,7 +63,10 @@ pub fn compile(
 
 /// Opens the cache in a folder.
 fn open_cache(folder: &Path) -> Result<Cache, JobError> {
-    Cache::open(folder).map_err(|source| JobError::Unwritable { path: folder.to_owned(), source })
+    Cache::open(folder).map_err(|error| match is_of_path(&error) {
+        true => JobError::UnfitCache { folder: folder.to_owned(), fault: error.to_string() },
+        false => JobError::Unwritable { path: folder.to_owned(), source: error },
+    })
 }
 
 /// Writes a database, as a stage of its own; returns the checksum of its file.

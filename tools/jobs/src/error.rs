@@ -67,6 +67,14 @@ pub enum JobError {
         /// What is there.
         fault: String,
     },
+    /// The folder of a cache names something that is no folder.
+    #[error("{} cannot be used as a cache: {fault}; name another folder", folder.display())]
+    UnfitCache {
+        /// Path of the folder.
+        folder: PathBuf,
+        /// What is there.
+        fault: String,
+    },
     /// Two outputs of one command would be written to the same file.
     #[error("{file} cannot be both {first} and {second}; give --{second} another name", file = output.display())]
     OneFileTwice {

@@ -74,14 +74,18 @@ fn check_file_of_folder(output: &Path, inputs: &[PathBuf]) -> Result<(), JobErro
 
 /// An output path is wrong, or the system does not allow to write there.
 fn unfit(output: &Path, error: io::Error) -> JobError {
-    use ErrorKind::{InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound};
-
-    match error.kind() {
-        InvalidFilename | InvalidInput | IsADirectory | NotADirectory | NotFound => {
-            JobError::UnfitOutput { output: output.to_owned(), fault: error.to_string() }
-        }
-        _ => JobError::unwritable(output, error),
+    match is_of_path(&error) {
+        true => JobError::UnfitOutput { output: output.to_owned(), fault: error.to_string() },
+        false => JobError::unwritable(output, error),
     }
+}
+
+/// Whether an error says that a path is wrong; else the system fails to write there.
+pub(crate) fn is_of_path(error: &io::Error) -> bool {
+    use ErrorKind::{AlreadyExists, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound};
+
+    // A folder exists already where a file is in its place.
+    matches!(error.kind(), AlreadyExists | InvalidFilename | InvalidInput | IsADirectory | NotADirectory | NotFound)
 }
 
 /// A folder that no other `fbcrowd run` writes into while this value lives.
@@ -95,7 +99,7 @@ impl LockedFolder {
     /// Makes a folder if it is missing, and locks it against every other process.
     ///
     /// # Errors
-    /// [`JobError::FolderInUse`], or [`JobError::Unwritable`] where it cannot be made.
+    /// [`JobError::FolderInUse`]; [`JobError::UnfitOutput`] or [`JobError::Unwritable`] where it cannot be made.
     pub fn exclusive(folder: &Path) -> Result<Self, JobError> {
         Self::locked(folder, File::try_lock)
     }

@@ -14,6 +14,7 @@ use motiondb::files::database_file::{self, FileError};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::input::nearest_first;
+use motiondb_compiler::read::ForeignFormat;
 use motiondb_compiler::survey::survey;
 
 use self::character::CharacterOptions;
@@ -109,10 +110,12 @@ fn character_options(args: &Args) -> Result<CharacterOptions<'_>, Failure> {
     })
 }
 
-/// Checks by its name that a file may hold clips. Folders and missing files are checked when they are read.
+/// Checks by its name that a file may hold clips. Folders, missing files and files of other formats, which have errors of
+/// their own, are checked when they are read.
 fn check_kind(path: &Path) -> Result<(), Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    if !path.is_file() || ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str()) {
+    let is_clip = ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str());
+    if !path.is_file() || is_clip || ForeignFormat::of_name(path).is_some() {
         return Ok(());
     }
     let what = match extension.as_str() {
