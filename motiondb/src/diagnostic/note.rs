@@ -135,6 +135,20 @@ pub enum Note {
         /// Whether the frames are at the beginning or at the end.
         end: ClipEnd,
     },
+    /// The clip gives transitions, and no example, since it shows no steady gait.
+    OnlyTransitionsUsed {
+        /// What it lacks for an example.
+        reason: Unfit,
+    },
+    /// In parts of the clip the body stands otherwise than at ease. They give no example and no idle.
+    RestsLeftOut {
+        /// First and last second of the longest.
+        longest_s: [f32; 2],
+        /// Reason why the longest is left out.
+        reason: Unfit,
+        /// Number of further such parts.
+        more: u32,
+    },
 }
 
 impl Note {
@@ -160,6 +174,8 @@ impl Note {
             Self::CornersUnused { .. } => "corners_unused",
             Self::JointsLeftOut { .. } => "joints_left_out",
             Self::HeldPoseCut { .. } => "held_pose_cut",
+            Self::OnlyTransitionsUsed { .. } => "only_transitions_used",
+            Self::RestsLeftOut { .. } => "rests_left_out",
         }
     }
 }
@@ -208,6 +224,17 @@ impl fmt::Display for Note {
             }
             Self::OnlyRestUsed { reason } => {
                 write!(out, "only the part that stands is used; of the part that steps: {reason}")
+            }
+            Self::OnlyTransitionsUsed { reason } => {
+                write!(out, "only its transitions are used; as an example of a gait: {reason}")
+            }
+            Self::RestsLeftOut { longest_s: [first_s, last_s], reason, more } => {
+                let more = match more {
+                    0 => String::new(),
+                    1 => ", nor does 1 further part".to_owned(),
+                    _ => format!(", nor do {more} further parts"),
+                };
+                write!(out, "the part from {first_s:.1} s to {last_s:.1} s gives no idle{more}: {reason}")
             }
             Self::SameTake { other, mirrored, windows_left_out } => {
                 write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))

@@ -174,7 +174,10 @@ impl fmt::Display for Unfit {
                  `frame_rate_hz` in a manifest.toml"
             ),
             Self::NoStep => {
-                out.write_str("no foot both lands and leaves, and the body does not stand; use a clip of a steady gait")
+                out.write_str(
+                "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait, at least a stride \
+                 and a half (1.5 to 2 s of a walk)",
+            )
             }
             Self::NoWholeStride => {
                 out.write_str("no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first")
@@ -244,7 +247,7 @@ impl fmt::Display for Unfit {
                 walks.join(" or ")
             ),
             Self::MovesLengthwise => out.write_str(
-                "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a \
+                "the body moves along its own length, as one that jumps, kneels down and rises, climbs or crawls; use a \
                  clip of walking or standing",
             ),
             Self::StridesUneven { speeds_mps, turn_rates_rad_s } => {

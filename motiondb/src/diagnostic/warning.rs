@@ -100,7 +100,8 @@ pub enum Warning {
         /// Number of clips that are compared; these are the longest.
         compared: u32,
     },
-    /// Another unit is nearly as likely as the one used. If the unit is wrong, so are all speeds.
+    /// Another unit may be the right one: it is nearly as likely, or more usual than the one used, or that of the clip seen
+    /// alone. If the unit is wrong, so are all speeds.
     UnitDoubtful {
         /// Length of thigh plus shank in the unit used, m.
         leg_m: f32,
@@ -144,6 +145,15 @@ pub enum Warning {
     },
     /// All frames hold the same pose.
     PoseFrozen,
+    /// The steps are those of a walk played too fast. If the frame time is wrong, so are all speeds.
+    QuickMotion {
+        /// Median length of a step, cm.
+        step_cm: f32,
+        /// Median number of steps a minute.
+        steps_per_min: f32,
+        /// Frame rate that is used, Hz.
+        frame_rate_hz: f32,
+    },
 }
 
 impl Warning {
@@ -171,6 +181,7 @@ impl Warning {
             Self::StyleWithoutStride { .. } => "style_without_stride",
             Self::RadiansLikely { .. } => "radians_likely",
             Self::PoseFrozen => "pose_frozen",
+            Self::QuickMotion { .. } => "quick_motion",
         }
     }
 }
@@ -197,6 +208,11 @@ impl fmt::Display for Warning {
                 out,
                 "steps of {step_cm:.0} cm, only {steps_per_min:.0} a minute, look like slow motion; if the clip was \
                  recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
+            ),
+            Self::QuickMotion { step_cm, steps_per_min, frame_rate_hz } => write!(
+                out,
+                "steps of only {step_cm:.0} cm, {steps_per_min:.0} a minute, look like a walk played too fast; if the clip \
+                 was recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
             ),
             Self::SidesExchanged => out.write_str(
                 "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \

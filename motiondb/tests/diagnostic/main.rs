@@ -60,6 +60,8 @@ const NUMBERED: [&[&str]; 3] = [
         "corners_unused",
         "joints_left_out",
         "held_pose_cut",
+        "only_transitions_used",
+        "rests_left_out",
     ],
     &[
         "inhuman_size",
@@ -83,6 +85,7 @@ const NUMBERED: [&[&str]; 3] = [
         "pose_jumps",
         "radians_likely",
         "pose_frozen",
+        "quick_motion",
     ],
     &[
         "up_contradicted",

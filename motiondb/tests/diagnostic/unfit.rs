@@ -17,7 +17,11 @@ pub(crate) fn unfit() -> Vec<(Unfit, &'static str)> {
             Unfit::InhumanGait { step_cm: 60.0, steps_per_min: 480.0 },
             "steps of 60 cm, 480 a minute, are not a human gait; state the right `frame_rate_hz` in a manifest.toml",
         ),
-        (Unfit::NoStep, "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait"),
+        (
+            Unfit::NoStep,
+            "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait, at least a stride and \
+             a half (1.5 to 2 s of a walk)",
+        ),
         (
             Unfit::NoWholeStride,
             "no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first",
@@ -94,7 +98,7 @@ pub(crate) fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (
             Unfit::MovesLengthwise,
-            "the body moves along its own length, as one that jumps, kneels down and rises, climbs or swims; use a clip \
+            "the body moves along its own length, as one that jumps, kneels down and rises, climbs or crawls; use a clip \
              of walking or standing",
         ),
         (

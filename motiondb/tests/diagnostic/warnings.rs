@@ -127,6 +127,11 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
              across; repair the motion there",
         ),
         (
+            Warning::QuickMotion { step_cm: 41.2, steps_per_min: 219.6, frame_rate_hz: 120.0 },
+            "steps of only 41 cm, 220 a minute, look like a walk played too fast; if the clip was recorded at another rate \
+             than 120 Hz, state `frame_rate_hz` in a manifest.toml",
+        ),
+        (
             Warning::RadiansLikely { turned_rad: 0.02 },
             "no foot steps, and no joint turns by more than 1.1°: the file seems to hold radians; export it with angles in \
              degrees",

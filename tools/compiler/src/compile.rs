@@ -35,6 +35,7 @@ use crate::select::named_cycles::named_cycles;
 use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
+use crate::transition::only_transitions::note_only_transitions;
 use crate::transition::transitions::transitions;
 use crate::transition::unused_corners::note_unused_corners;
 
@@ -184,6 +185,7 @@ fn style_database(
     observer(CompileEvent::Stage("transitions"));
     let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
     note_unused_corners(&mut selected.sources, &adding, &actions);
+    note_only_transitions(&mut selected.sources, &actions);
     let extra = set_extra.motion(&selected.cycles, &actions, &clips);
     Ok(MotionDb { style, extra, ..assemble(selected, &actions, body, options.velocity_hull, observer) })
 }

@@ -3,13 +3,13 @@
 //! # Steps
 //! 1. read ([`crate::read::bvh`], [`crate::read::gltf`]) → `SourceMotion` in source units and axes
 //! 2. settings of a manifest (`clip_settings`)
-//! 3. roles of joints ([`crate::rig`]) in a few frames → `SourceClip`: all frames of the joints that have roles; the
-//!    stated facing (`stated_facing`)
-//! 4. metres, z up ([`crate::retarget::units`])
+//! 3. roles of joints ([`crate::rig`]) in a few frames, or in the rest pose of a body that crawls → `SourceClip`: all frames
+//!    of the joints that have roles; the stated facing (`stated_facing`)
+//! 4. metres, z up ([`crate::retarget::units`]); of a body that crawls, up as its rest pose stands
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
 //!    ends
 //! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
-//! 7. parts that are not upright (`posture`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
+//! 7. parts that are not upright (`posture`), or a bind pose (`spread_arms`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
@@ -19,8 +19,7 @@ use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
-use crate::checks::lengthwise_path::lengthwise_path;
-use crate::checks::{level_ground, plausibility, pose_jumps};
+use crate::checks::{lengthwise_path, level_ground, plausibility, pose_jumps, spread_arms};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
@@ -29,11 +28,12 @@ use crate::read::bvh;
 use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::GltfFile;
 use crate::read::source_clip::SourceClip;
-use crate::read::source_motion::SourceMotion;
+use crate::read::source_motion::{JointPoses, SourceMotion};
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
-use crate::rig::{self, rest_pose::RestPose, roles::Roles};
+use crate::rig::rest_pose::RestPose;
+use crate::rig::{self, JointMap, Roles};
 
 /// Number of bytes that are read of a file at once.
 const READ_BYTES: usize = 1 << 16;
@@ -54,6 +54,9 @@ pub struct ImportedClip {
     /// The clip on the canonical humanoid, or why it is not human motion.
     pub outcome: Result<HumanClip, RejectionReason>,
 }
+
+/// The import of the clips of one file.
+pub(crate) type Importer<'a> = dyn Fn(&ClipSettings) -> Result<Vec<ImportedClip>, Rejection> + Sync + 'a;
 
 /// All clips of a `.bvh`, `.glb` or `.gltf` file. A rejected clip does not affect the others.
 ///
@@ -202,12 +205,17 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     if settings.metres_per_unit.is_none() {
         plausibility::drop_implausible_unit(&mut clip, &roles);
     }
-    let contradicted_up = plausibility::contradicted_up(&clip, &roles);
+    let crawls = rest.stands && lengthwise_path::crawls(&clip, &roles, rest.up);
+    if crawls {
+        clip.up_axis = clip.up_axis.or(Some(rest.up));
+    }
+    let contradicted_up = plausibility::contradicted_up(&clip, &roles).filter(|_| !crawls);
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     let parameters = parameters_of_trimmed(&mut clip, &roles, settings);
     let mut warnings = vec![plausibility::size_warning(&clip, &roles)];
     // A body that does not stand along the up axis has no feet on the ground.
-    let unfit = contradicted_up.clone().or_else(|| lengthwise_path(&clip, &roles)).or_else(|| {
+    let lengthwise = || lengthwise_path::lengthwise_path(&clip, &roles).filter(|_| !crawls);
+    let unfit = contradicted_up.clone().or_else(lengthwise).or_else(|| {
         warnings.push(level_ground::warning(&clip, &roles, &parameters));
         match plausibility::doubtful_gait(&clip, &roles, &parameters)? {
             Diagnostic::NoExample(unfit) => Some(unfit),
@@ -229,7 +237,9 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
+    let spread_parts = spread_arms::spread_parts(&clip, &roles);
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
+    human.spread_parts = spread_parts;
     if let Some(head) = &mut human.rig_head {
         (head.rest_up, head.rest_offset) = (rest.up.name(), rest.head_offset);
     }
@@ -255,8 +265,8 @@ fn clip_with_roles(
     let known = settings.joint_map(&motion.head)?;
     rig::check_size(&motion.head)?;
     let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
-    let mut roles = rig::find_roles(&sample, &known)?;
     let rest = motion.rest();
+    let mut roles = roles_in(&sample, &rest, &known)?;
     let rest = RestPose::of(&motion.head.joints, &rest, &roles);
     let extra = extra_joints(&sample, &roles);
     roles.extra = extra.kept;
@@ -273,6 +283,18 @@ fn clip_with_roles(
     };
     clip.diagnostics.extend(left_out);
     Ok((clip, roles, rest))
+}
+
+/// The roles of the joints by a few frames; by the rest pose of a body that stands, where it crawls or bends down in these.
+fn roles_in(sample: &SourceClip, rest: &JointPoses, known: &JointMap) -> Result<Roles, RejectionReason> {
+    let found = rig::find_roles(sample, known);
+    if !matches!(found, Err(RejectionReason::NotUpright { .. })) {
+        return found;
+    }
+    let (positions, orientations) = (rest.positions.clone(), rest.orientations.clone());
+    let at_rest = SourceClip { positions, orientations, oriented: rest.orientations.len(), ..sample.clone() };
+    let of_rest = rig::find_roles_by_name(&at_rest, known).ok();
+    of_rest.filter(|roles| RestPose::of(&sample.joints, rest, roles).stands).map_or(found, Ok)
 }
 
 /// Removes poses that are not part of the motion, unless a manifest selects the frames, and returns the whole-clip

@@ -192,6 +192,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         frames,
         in_place_mps: None,
         low_parts: Vec::new(),
+        spread_parts: Vec::new(),
         jumps: Vec::new(),
         unfit: None,
         rig_head: None,

@@ -14,8 +14,8 @@ use glam::{DQuat, DVec3};
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Posture, Unfit};
 use motiondb::motion::MotionDb;
-use motiondb_compiler::{CompileError, HumanClip, Options, compile, import_bytes};
-use zoo::body::{Performance, Pose, part};
+use motiondb_compiler::{ClipSettings, CompileError, HumanClip, Options, compile, import_bytes, import_with_settings};
+use zoo::body::{PARTS, Performance, Pose, part};
 use zoo::file::{self, File};
 use zoo::names::tools;
 use zoo::rig::{self, Rest};
@@ -107,6 +107,17 @@ fn crouch(walk: &Performance) -> Performance {
     body
 }
 
+/// A body that stands and bows from its hips, the arms along the trunk.
+fn bow(bow_deg: f64) -> Performance {
+    let is_of_leg = |name: &str| ["Leg", "Foot", "Toe"].iter().any(|part| name.contains(part));
+    changed(&Performance::read("idle"), |pose, facing, _| {
+        let turn = facing * DQuat::from_rotation_x(bow_deg.to_radians()) * facing.inverse();
+        for name in PARTS.iter().filter(|name| !is_of_leg(name)) {
+            pose.turns[part(name)] = turn * pose.turns[part(name)];
+        }
+    })
+}
+
 /// One capture of several parts, each from where the one before ends, with half a second between two.
 fn capture(parts: &[&Performance]) -> Performance {
     let mut all = parts[0].clone();
@@ -121,12 +132,14 @@ fn capture(parts: &[&Performance]) -> Performance {
     all
 }
 
+/// The text of a BVH file.
+fn text(body: &Performance) -> String {
+    let rig = rig::build(body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
+    file::write(body, &rig, &File::plain(100.0, 1.0))
+}
+
 fn imported(body: &Performance) -> HumanClip {
-    let names = &tools()[0];
-    let rig = rig::build(body, names, &[], Rest::TPose, || DQuat::IDENTITY);
-    let file = File::plain(100.0, 1.0);
-    let text = file::write(body, &rig, &file);
-    import_bytes(Path::new("capture.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+    import_bytes(Path::new("capture.bvh"), text(body).as_bytes()).unwrap().remove(0).outcome.unwrap()
 }
 
 fn compiled(body: &Performance) -> Result<MotionDb, CompileError> {
@@ -166,6 +179,27 @@ fn check_posture(body: &Performance, posture: Posture) {
 fn bodies_that_are_not_upright_give_no_example() {
     check_posture(&knee_walk(&walk()), Posture::Kneeling);
     check_posture(&crouch(&walk()), Posture::Crouching);
+    check_posture(&crawl(&walk()), Posture::OnHands);
+    check_posture(&bow(70.0), Posture::BentOver);
+    check_posture(&bow(58.0), Posture::BentOver);
+    check_posture(&bow(48.0), Posture::BentOver);
+}
+
+#[test]
+fn a_manifest_can_take_a_crawl_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("crawl.bvh");
+    std::fs::write(&path, text(&crawl(&walk()))).unwrap();
+    let settings = ClipSettings { takes_any_posture: true, ..ClipSettings::from(path) };
+    let clip = import_with_settings(&settings).unwrap().remove(0).outcome.unwrap();
+    assert_eq!((clip.source.up_axis.as_str(), &clip.unfit), ("+Y", &None));
+    let db = compile(vec![clip], &Options::default(), &|_| ()).unwrap();
+    assert!((db.examples[0].parameters.speed_mps - 0.33).abs() < 0.1, "{:?}", db.examples);
+}
+
+#[test]
+fn a_bow_of_a_few_degrees_is_upright() {
+    assert_eq!(low_parts(&imported(&bow(20.0))), []);
 }
 
 #[test]
@@ -269,4 +303,39 @@ fn of_idles_the_one_with_hanging_arms_is_blended() {
     let at_rest = db.blend_space.simplices.iter().map(|&corner| db.examples[corner as usize].name.as_str());
     let names: Vec<&str> = at_rest.collect();
     assert!(names.contains(&"hangs") && !names.contains(&"aims"), "{names:?}: {:#?}", db.sources);
+}
+
+#[test]
+fn a_bind_pose_within_an_idle_is_left_out() {
+    let idle = || Performance::read("idle");
+    for spread_deg in [88.0, 45.0] {
+        let db = compiled(&capture(&[&idle(), &idle_with_arms(spread_deg), &idle()])).unwrap();
+        let ends_s =
+            [idle().poses.len(), 2 * idle().poses.len()].map(|frame| frame as f32 / idle().frame_rate_hz as f32);
+        let windows_s: Vec<[f32; 2]> = db.idles().map(|idle| idle.window_s).collect();
+        assert!(!windows_s.is_empty(), "{spread_deg}: {:?}", db.sources[0].diagnostics);
+        for [first_s, last_s] in windows_s {
+            assert!(last_s < ends_s[0] + 0.1 || first_s > ends_s[1], "{spread_deg}: {first_s} to {last_s}");
+        }
+        let noted = |found: &Diagnostic| matches!(found, Diagnostic::Note(Note::RestsLeftOut { .. }));
+        assert!(db.sources[0].diagnostics.iter().any(noted), "{spread_deg}: {:?}", db.sources[0].diagnostics);
+    }
+}
+
+#[test]
+fn a_body_on_a_turntable_is_no_idle() {
+    let mut body = Performance::read("idle");
+    let centre_m = body.poses[0].hips_m.with_y(0.0);
+    let frame_rate_hz = body.frame_rate_hz;
+    for (frame, pose) in body.poses.iter_mut().enumerate() {
+        let share = ((frame as f64 / frame_rate_hz - 2.0) / 2.0).clamp(0.0, 1.0);
+        let turn = DQuat::from_rotation_y(1.4 * share * share * (3.0 - 2.0 * share));
+        pose.hips_m = centre_m + turn * (pose.hips_m - centre_m);
+        pose.turns = pose.turns.map(|part| turn * part);
+    }
+    let db = compiled(&body).unwrap();
+    for idle in db.idles() {
+        let [first_s, last_s] = idle.window_s;
+        assert!(last_s < 2.6 || first_s > 3.4, "{first_s} to {last_s}");
+    }
 }

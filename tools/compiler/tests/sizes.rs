@@ -16,7 +16,7 @@ use std::path::Path;
 
 use glam::DQuat;
 use motiondb::diagnostic::{Diagnostic, Warning};
-use motiondb_compiler::{HumanClip, import_bytes, import_file};
+use motiondb_compiler::{HumanClip, Manifest, import_bytes, import_clip_set, import_file};
 use support::mocap;
 use zoo::body::{Performance, part};
 use zoo::file::{self, File};
@@ -30,11 +30,16 @@ fn walk(leg_m: f64, units_per_m: f64) -> HumanClip {
 
 /// A motion by a performer with legs of this length, as a file in this unit.
 fn performed(body: &Performance, leg_m: f64, units_per_m: f64) -> HumanClip {
+    let text = text(body, leg_m, units_per_m);
+    import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+}
+
+/// The text of such a file.
+fn text(body: &Performance, leg_m: f64, units_per_m: f64) -> String {
     let adult_m: f64 = ["LeftLeg", "LeftFoot"].map(|name| body.offsets_m[part(name)].length()).into_iter().sum();
     let rig = rig::build(body, &tools()[0], &[], Rest::TPose, || DQuat::IDENTITY);
     let file = File::plain(units_per_m, leg_m / adult_m);
-    let text = file::write(body, &rig, &file);
-    import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+    file::write(body, &rig, &file)
 }
 
 /// Checks the leg length that is found, and whether the report calls the unit doubtful.
@@ -71,15 +76,63 @@ fn adults_keep_their_unit() {
 }
 
 #[test]
-fn slow_motion_is_doubtful() {
-    let is_doubtful = |slowness: f64| {
-        let walk = Performance::read("walk_110");
-        let slowed = Performance { frame_rate_hz: walk.frame_rate_hz / slowness, ..walk };
-        let is_warning = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::FrameTimeDoubtful { .. }));
-        performed(&slowed, 0.84, 100.0).source.diagnostics.iter().any(is_warning)
-    };
-    assert!(is_doubtful(2.0));
-    assert!(!is_doubtful(1.0));
+fn legs_of_an_adult_in_inches_may_be_those_of_a_toy() {
+    for leg_m in [0.25, 0.30, 0.33] {
+        let found = walk(leg_m, 100.0).source.diagnostics;
+        let names_it = |found: &Diagnostic| match found {
+            Diagnostic::Warning(Warning::UnitDoubtful { other_leg_m, .. }) => {
+                (f64::from(*other_leg_m) - leg_m).abs() < 0.01
+            }
+            _ => false,
+        };
+        assert!(found.iter().any(names_it), "{leg_m} m: {found:?}");
+    }
+}
+
+/// Codes of the warnings about a bundled clip at a multiple of its frame time.
+fn codes_at(clip: &str, slowness: f64) -> Vec<&'static str> {
+    let body = Performance::read(clip);
+    let slowed = Performance { frame_rate_hz: body.frame_rate_hz / slowness, ..body };
+    performed(&slowed, 0.84, 100.0).source.diagnostics.iter().map(Diagnostic::code).collect()
+}
+
+#[test]
+fn slow_and_quick_motion_are_doubtful() {
+    for clip in ["walk_080", "walk_110", "walk_180", "run_350"] {
+        assert_eq!(codes_at(clip, 1.0), [""; 0], "{clip}");
+    }
+    for clip in ["walk_110", "walk_180", "run_350"] {
+        assert!(codes_at(clip, 2.0).contains(&"frame_time_doubtful"), "{clip}: {:?}", codes_at(clip, 2.0));
+    }
+    assert_eq!(codes_at("walk_110", 0.5), ["quick_motion"]);
+}
+
+#[test]
+fn clips_of_one_rig_have_one_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    // Alone, a stroll in feet seems to be in decimetres, and a run in metres.
+    let clips = ["walk_050", "walk_080", "walk_110", "run_350"];
+    let files = clips.map(|clip| folder.path().join(format!("{clip}.bvh")));
+    for (clip, file) in clips.iter().zip(&files) {
+        fs::write(file, text(&Performance::read(clip), 0.84, 1.0 / 0.3048)).unwrap();
+    }
+    let units_m = |clips: &[HumanClip]| clips.iter().map(|clip| clip.source.metres_per_unit).collect::<Vec<f32>>();
+    let mut alone: Vec<HumanClip> =
+        files.iter().map(|file| import_file(file).unwrap().remove(0).outcome.unwrap()).collect();
+    alone.sort_by(|a, b| a.name.cmp(&b.name));
+    let set = import_clip_set(&Manifest::of_files(&files), &|_| ()).unwrap().clips;
+    assert!(units_m(&alone).windows(2).any(|pair| pair[0] != pair[1]), "{:?}", units_m(&alone));
+    assert!(units_m(&set).windows(2).all(|pair| pair[0] == pair[1]), "{:?}", units_m(&set));
+    for (clip, alone) in set.iter().zip(&alone) {
+        let is_doubt = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. }));
+        let changed = clip.source.metres_per_unit != alone.source.metres_per_unit;
+        assert!(
+            !changed || clip.source.diagnostics.iter().any(is_doubt),
+            "{}: {:?}",
+            clip.name,
+            clip.source.diagnostics
+        );
+    }
 }
 
 #[test]

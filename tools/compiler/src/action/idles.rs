@@ -71,7 +71,7 @@ mod tests {
 
     use glam::DQuat;
     use motiondb::body::Joint;
-    use motiondb::diagnostic::{Diagnostic, Unfit};
+    use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 
     use crate::retarget::human_clip::HumanClip;
     use crate::synthetic::{SyntheticWalk, database_of, idle, performance, walk};
@@ -120,6 +120,22 @@ mod tests {
             let source = db.sources.iter().find(|source| source.file == format!("{name}.bvh")).unwrap();
             assert!(source.diagnostics.contains(&Diagnostic::NoExample(wanted)), "{:?}", source.diagnostics);
         }
+    }
+
+    #[test]
+    fn a_t_pose_between_walks_is_noted() {
+        let walk = || walk("part", SyntheticWalk::default());
+        let clip = performance("capture", &[walk(), with_arms("part", 3.0, FRAC_PI_2, 0.0), walk()]);
+        let db = database_of(vec![clip], 0);
+        let found = &db.sources[0].diagnostics;
+        let is_noted = |found: &Diagnostic| match found {
+            Diagnostic::Note(Note::RestsLeftOut { longest_s: [from_s, to_s], reason: Unfit::TPose, more: 0 }) => {
+                (from_s - 4.0).abs() < 0.6 && (to_s - 7.0).abs() < 0.6
+            }
+            _ => false,
+        };
+        assert!(found.iter().any(is_noted), "{found:?}");
+        assert_eq!(db.idles().count(), 0);
     }
 
     #[test]

@@ -37,7 +37,8 @@ pub(crate) fn of_clip(file: &Digest, index: usize) -> Digest {
 
 /// Key of the analysis of a clip on a body.
 pub(crate) fn of_analysis(clip: &HumanClip, stored: &Digest, body: &HumanBody) -> Digest {
-    let state = format!("{} {:?} {body:?}", clip.name, clip.choices);
+    // The set may add warnings to a clip, and these count as flaws.
+    let state = format!("{} {:?} {:?} {body:?}", clip.name, clip.choices, clip.source.diagnostics);
     of_parts(&[b"analysis", stored, state.as_bytes()])
 }
 

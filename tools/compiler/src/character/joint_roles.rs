@@ -53,7 +53,7 @@ pub(crate) fn slots_of_roles(
         return Ok((slots, RolesFrom::Vrm));
     }
     let clip = clip(pose, &kept);
-    let roles = rig::find_roles_by_name(&clip).map_err(of_character)?;
+    let roles = rig::find_roles_by_name(&clip, &[None; JOINT_COUNT]).map_err(of_character)?;
     if roles.are_names_mirrored {
         notes.push(CharacterNote::MirroredNames);
     }

@@ -1,12 +1,13 @@
-//! Whether a body moves along the line from its feet to its shoulders, as one that climbs, swims or jumps high. Clips in
-//! any axes and unit.
+//! Whether a body moves along the line from its feet to its shoulders, as one that climbs, swims, crawls or jumps high. Clips
+//! in any axes and unit.
 
 use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 
+use crate::read::axis::Axis;
 use crate::read::source_clip::SourceClip;
-use crate::retarget::units::{leg_length, middle};
+use crate::retarget::units::{found_up, leg_length, middle};
 use crate::rig::roles::Roles;
 
 /// Greatest share of a body's path along the line from feet to shoulders (cosine of 37°). On stairs 0.6, bent double
@@ -15,9 +16,23 @@ const LENGTHWISE_MAX: f64 = 0.8;
 /// Least standard deviation of the hips' position, divided by the leg length, of a body that travels: a straight path
 /// of two legs' length. Jumps, and bodies that kneel and rise, reach 0.5.
 const TRAVEL_MIN: f64 = 0.6;
+/// The same of a body that crawls: a path of one leg's length. Its rest pose stands along another axis than it moves.
+const CRAWL_TRAVEL_MIN: f64 = 0.3;
 
 /// The verdict that the body's path lies along its own length.
 pub(crate) fn lengthwise_path(clip: &SourceClip, roles: &Roles) -> Option<Unfit> {
+    let [travel, along] = travel(clip, roles);
+    (travel > TRAVEL_MIN && along > LENGTHWISE_MAX).then_some(Unfit::MovesLengthwise)
+}
+
+/// Whether the body crawls: it moves along its length, and that is not the axis along which its rest pose stands.
+pub(crate) fn crawls(clip: &SourceClip, roles: &Roles, rest_up: Axis) -> bool {
+    let [travel, along] = travel(clip, roles);
+    travel > CRAWL_TRAVEL_MIN && along > LENGTHWISE_MAX && found_up(clip, roles) != rest_up
+}
+
+/// Standard deviation of the hips' position, leg lengths, and its share along the line from feet to shoulders.
+fn travel(clip: &SourceClip, roles: &Roles) -> [f64; 2] {
     let count = clip.frame_count() as f64;
     let mean = |value: &dyn Fn(usize) -> DVec3| (0..clip.frame_count()).map(value).sum::<DVec3>() / count;
     let hips = |frame: usize| middle(clip, roles, Joint::THIGHS, frame);
@@ -30,6 +45,5 @@ pub(crate) fn lengthwise_path(clip: &SourceClip, roles: &Roles) -> Option<Unfit>
         (offset.length_squared(), offset.dot(length) * offset.dot(length))
     });
     let (travel, along) = squares.fold((0.0, 0.0), |(travel, along), (all, own)| (travel + all, along + own));
-    let travels = (travel / count).sqrt() > TRAVEL_MIN * leg_length(clip, roles);
-    (travels && (along / travel).sqrt() > LENGTHWISE_MAX).then_some(Unfit::MovesLengthwise)
+    [(travel / count).sqrt() / leg_length(clip, roles), (along / travel).sqrt()]
 }

@@ -152,28 +152,27 @@ impl GroundCheck<'_> {
         Some(self.radians().unwrap_or(skating))
     }
 
-    /// Joints that hardly turn in a body that takes no step.
+    /// Legs that take no step and hardly turn, but not much less than the rest of the body.
     fn radians(&self) -> Option<Warning> {
-        let turned_rad = self.steps.is_empty().then(|| self.greatest_turn_rad())?;
-        let is_likely = RADIANS_AS_DEGREES_DEG.contains(&turned_rad.to_degrees());
+        if !self.steps.is_empty() {
+            return None;
+        }
+        let [legs_rad, rest_rad] =
+            [true, false].map(|of_legs| self.greatest_turn_of(&|joint| is_of_leg(joint) == of_legs));
+        let turned_rad = legs_rad.max(rest_rad);
+        let is_likely =
+            RADIANS_AS_DEGREES_DEG.contains(&turned_rad.to_degrees()) && legs_rad > LEGS_OVER_REST * rest_rad;
         is_likely.then_some(Warning::RadiansLikely { turned_rad: turned_rad as f32 })
     }
 
-    /// Legs that hardly turn, but as much as the rest of the body, and would step if their angles were radians.
+    /// The same in a clip in place: the legs would step, too, if their angles were radians.
     fn radians_in_place(&self) -> Option<Warning> {
         let found = self.radians()?;
-        let [legs_rad, rest_rad] =
-            [true, false].map(|of_legs| self.greatest_turn_of(&|joint| is_of_leg(joint) == of_legs));
         let lead = LEAD_MIN_M * self.scale * 1.0_f64.to_radians();
         let steps = foot_passings(self.clip, self.roles, lead);
         let step_s = median(steps.windows(2).map(|pair| (pair[1] - pair[0]) as f64 / self.clip.frame_rate_hz))?;
         let is_human = STEP_S.contains(&(step_s / self.scale.sqrt()));
-        (legs_rad > LEGS_OVER_REST * rest_rad && steps.len() >= RADIANS_STEPS_MIN && is_human).then_some(found)
-    }
-
-    /// Greatest turn of a joint since the first frame, rad.
-    fn greatest_turn_rad(&self) -> f64 {
-        self.greatest_turn_of(&|_| true)
+        (steps.len() >= RADIANS_STEPS_MIN && is_human).then_some(found)
     }
 
     /// Greatest turn since the first frame of the joints that count, rad.

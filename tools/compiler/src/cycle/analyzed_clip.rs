@@ -5,6 +5,7 @@
 //! 2. Put the clip, and the windows of the gait, on the target body.
 //! 3. Close each window into a steady cycle, or find why it is unfit ([`crate::cycle::steady_cycle`]).
 
+use std::cmp::Reverse;
 use std::ops::Range;
 
 use glam::DQuat;
@@ -16,6 +17,7 @@ use crate::cycle::corners::{Corner, SHOWN_SHARE, SharpTurn, sharp_turns};
 use crate::cycle::flaws::standing_flaws;
 use crate::cycle::foot_slide::follow_feet;
 use crate::cycle::mean_stride::{frames_beside, mean_stride};
+use crate::cycle::rest::Rest;
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::gait::foot_stance::FootStance;
 use crate::gait::movements::{Movement, MovementKind, frames_beside_cut, movements};
@@ -73,15 +75,18 @@ impl AnalyzedClip {
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
         let found = found.map_err(|reason| not_upright(clip, frame_count).unwrap_or(reason));
         let times = ClipTimes::of(clip, frame_count);
-        let (mut windows, mut reasons) = (Vec::new(), Vec::new());
+        let (mut windows, mut reasons, mut doubtful) = (Vec::new(), Vec::new(), 0);
         match found {
             Ok(found) => {
-                let is_in_place = clip.in_place_mps.is_some();
-                let on_body = ClipOnBody { times: &times, grounded: &grounded, body, growth, is_in_place };
+                let (rests, is_in_place) = (&performer.gait.rests[..], clip.in_place_mps.is_some());
+                let on_body = ClipOnBody { times: &times, grounded: &grounded, rests, body, growth, is_in_place };
                 for window in found {
                     match on_body.steady_cycle(&performer.gait.stances[window.reading], &window) {
                         Ok(steady) => windows.push(steady),
-                        Err(unfit) => reasons.push(unfit),
+                        Err(unfit) => {
+                            doubtful += usize::from(!matches!(unfit, Unfit::TPose | Unfit::ArmsOut | Unfit::ArmRaised));
+                            reasons.push(unfit);
+                        }
                     }
                 }
             }
@@ -99,15 +104,30 @@ impl AnalyzedClip {
         let movements = clip_movements(clip, &performer.gait, &grounded);
         let corners = clip_corners(clip, &performer.gait, &times, grounded.loop_frames());
         let rests = performer.gait.rests;
+        let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
+        let rests_left_out = times.rests_note(clip, &rests, &grounded, body).map(Diagnostic::Note);
         if windows.is_empty() {
-            let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
+            let reason = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect::<Vec<_>>();
+            let tells_parts = matches!(
+                reason[..],
+                [Diagnostic::NoExample(
+                    Unfit::NotUpright { .. }
+                        | Unfit::TPose
+                        | Unfit::ArmsOut
+                        | Unfit::ArmRaised
+                        | Unfit::StatedTransition
+                )]
+            );
+            // Of a clip that import rejects as a whole no part is known.
+            let are_noted = clip.unfit.is_none() && !tells_parts;
+            let parts = low_parts.into_iter().chain(rests_left_out).filter(|_| are_noted);
+            let diagnostics = reason.into_iter().chain(parts).collect();
             let left_out = LeftOutWindows::default();
             return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
-        let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
-        let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
-        let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
+        let left_out = LeftOutWindows { doubtful, near_equal: 0 };
+        let diagnostics = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).collect();
         Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
 
@@ -278,12 +298,47 @@ impl ClipTimes {
             more: counted().count() as u32 - 1,
         })
     }
+
+    /// First and last second of a rest of the analysed clip.
+    fn of_rest_s(&self, rest: &Range<usize>, grounded: &GroundedClip) -> [f64; 2] {
+        let before = grounded.loop_frames().unwrap_or(0) as f64;
+        [rest.start, rest.end - 1].map(|frame| self.in_file_s(frame as f64 - before))
+    }
+
+    /// The note on rests in which the body does not stand at ease, and on bind poses.
+    fn rests_note(
+        &self,
+        clip: &HumanClip,
+        rests: &[Range<usize>],
+        grounded: &GroundedClip,
+        body: &HumanBody,
+    ) -> Option<Note> {
+        let unfit = |frames: &Range<usize>| {
+            let reason = Rest::of(grounded, frames, body).unfit()?;
+            Some((frames.len(), self.of_rest_s(frames, grounded), reason))
+        };
+        let spread = |frames: &Range<usize>| {
+            let window_s = [frames.start, frames.end - 1].map(|frame| self.in_file_s(frame as f64));
+            (frames.len(), window_s, Unfit::ArmsOut)
+        };
+        let rests = rests.iter().filter_map(unfit);
+        let left_out: Vec<_> = rests.chain(clip.spread_parts.iter().map(spread)).collect();
+        // The first of the longest: `max_by_key` alone would take the last.
+        let (_, window_s, reason) = left_out.iter().rev().max_by_key(|(length, _, _)| *length)?;
+        Some(Note::RestsLeftOut {
+            longest_s: window_s.map(|time_s| time_s as f32),
+            reason: reason.clone(),
+            more: left_out.len() as u32 - 1,
+        })
+    }
 }
 
 /// A clip on the target body, of which windows become cycles.
 struct ClipOnBody<'a> {
     times: &'a ClipTimes,
     grounded: &'a GroundedClip<'static>,
+    /// Frames in which the body stands, in order of time.
+    rests: &'a [Range<usize>],
     body: &'a HumanBody,
     /// Size of the body over that of the performer.
     growth: f64,
@@ -292,11 +347,22 @@ struct ClipOnBody<'a> {
 }
 
 impl ClipOnBody<'_> {
+    /// The cycle of the longest rest in which the body stands at ease; else why the longest of all is unfit.
+    fn standing_cycle(&self, longest: &Range<usize>) -> Result<SteadyCycle, Unfit> {
+        let cycle = |rest: &Range<usize>| {
+            let window_s = self.times.of_rest_s(rest, self.grounded);
+            SteadyCycle::of_rest(self.grounded, rest, self.body, window_s)
+        };
+        let mut others: Vec<&Range<usize>> = self.rests.iter().filter(|rest| *rest != longest).collect();
+        others.sort_by_key(|rest| Reverse(rest.len()));
+        cycle(longest).or_else(|unfit| others.into_iter().find_map(|rest| cycle(rest).ok()).ok_or(unfit))
+    }
+
     /// The steady cycle of a window, or why it is unfit; `stances` are those of both feet, `[left, right]`.
     fn steady_cycle(&self, stances: &[Vec<FootStance>; 2], window: &GaitWindow) -> Result<SteadyCycle, Unfit> {
         let window_s = window.frames.map(|frame| self.times.in_file_s(frame));
         match &window.gait {
-            WindowGait::Stands(frames) => SteadyCycle::of_rest(self.grounded, frames, self.body, window_s),
+            WindowGait::Stands(longest) => self.standing_cycle(longest),
             WindowGait::Steps(strides) => {
                 let mut cycle = mean_stride(self.grounded, self.body, stances, strides);
                 if self.is_in_place {

@@ -16,6 +16,10 @@ use crate::retarget::human_clip::HumanClip;
 
 /// Duration of a rest as flawed as a lone stride, s.
 const REST_S: f64 = 1.0;
+/// Greatest lean of the trunk of a rest without flaw, degrees.
+const UPRIGHT_LEAN_DEG: f64 = 15.0;
+/// Lean beyond that of a trunk that could hardly be more bent, degrees: 45° in all are left out as a bow.
+const BENT_LEAN_DEG: f64 = 30.0;
 /// Parts of the names of clips that show a body at ease.
 const STANDING_NAMES: [&str; 6] = ["idle", "stand", "breath", "rest", "wait", "neutral"];
 /// Flaws of a rest in a clip of another name: as much as arms that are half raised.
@@ -33,9 +37,10 @@ pub(crate) fn flaws_of_strides(strides: &[Stride], rates: &Rates, slide: &FootSl
         + 1.0 / strides.len() as f64
 }
 
-/// The flaws of a rest: it is short, its arms are raised, its joints move.
+/// The flaws of a rest: it is short, its arms are raised, its trunk is bent, its joints move.
 pub(crate) fn flaws_of_rest(rest: &Rest) -> f64 {
-    REST_S / rest.duration_s + rest.arms_raised + rest.joint_speed_mps / STANDING_JOINT_SPEED_MPS
+    let bent = (rest.lean_deg - UPRIGHT_LEAN_DEG).max(0.0) / BENT_LEAN_DEG;
+    REST_S / rest.duration_s + rest.arms_raised + bent + rest.joint_speed_mps / STANDING_JOINT_SPEED_MPS
 }
 
 /// The flaws that every rest of a clip has: the clip's name does not say that the body stands, and the clip has warnings.

@@ -10,6 +10,7 @@ use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
+use crate::checks::spread_arms::{ARMS_OUT_DEG, angle_deg, arms_out_deg};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
@@ -17,12 +18,10 @@ use crate::rig::roles::ARMS;
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
-/// Least angle at which both straight arms point away from the trunk in a bind pose, degrees.
-const ARMS_OUT_DEG: f64 = 30.0;
-/// Greatest flexion of the elbow of a straight arm, degrees.
-const STRAIGHT_DEG: f64 = 25.0;
-/// Least angle of the higher arm off straight down in a raised one, degrees.
-const ARM_RAISED_DEG: f64 = 65.0;
+/// Least angle of the higher arm off straight down in a raised one, degrees: folded arms have up to 67, an aimed gun 90.
+const ARM_RAISED_DEG: f64 = 75.0;
+/// Least angle of both arms off straight down in arms that are raised, not spread, degrees.
+const ARMS_UP_DEG: f64 = 120.0;
 
 /// Figures of a rest, means over its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +36,8 @@ pub(crate) struct Rest {
     pub(crate) arms_out_deg: f64,
     /// Angle off straight down of the higher wrist, seen from its shoulder.
     pub(crate) higher_arm_deg: f64,
+    /// Lean of the trunk off the vertical, degrees.
+    pub(crate) lean_deg: f64,
     /// Speed of the joints, m/s.
     pub(crate) joint_speed_mps: f64,
 }
@@ -55,8 +56,11 @@ impl Rest {
             duration_s: (frames.len() - 1) as f64 / clip.frame_rate_hz,
             arms_raised: mean_of(&arms_raised),
             arms_spread: mean_of(&|joints| arm_spread(|joint| joints.positions_m[joint.index()])),
-            arms_out_deg: mean_of(&arms_out_deg),
+            arms_out_deg: mean_of(&|joints| arms_out_deg(|joint| position_m(joints, joint))),
             higher_arm_deg: mean_of(&|joints| ARMS.map(|arm| arm_deg(joints, arm)).into_iter().fold(0.0, f64::max)),
+            lean_deg: mean_of(&|joints| {
+                angle_deg(position_m(joints, Joint::Neck) - position_m(joints, Joint::Pelvis), DVec3::Z)
+            }),
             joint_speed_mps: mean(steps_m).unwrap_or_default() * clip.frame_rate_hz,
         }
     }
@@ -65,6 +69,7 @@ impl Rest {
     pub(crate) fn unfit(&self) -> Option<Unfit> {
         match self {
             rest if rest.arms_spread > SPREAD_COSINE => Some(Unfit::TPose),
+            rest if rest.arms_out_deg > ARMS_UP_DEG => Some(Unfit::ArmRaised),
             rest if rest.arms_out_deg > ARMS_OUT_DEG => Some(Unfit::ArmsOut),
             rest if rest.higher_arm_deg > ARM_RAISED_DEG => Some(Unfit::ArmRaised),
             _ => None,
@@ -86,23 +91,4 @@ fn arms_raised(joints: &HumanJoints) -> f64 {
 /// Angle off straight down of a wrist, seen from its shoulder, degrees.
 fn arm_deg(joints: &HumanJoints, [shoulder, _, wrist]: [Joint; 3]) -> f64 {
     angle_deg(position_m(joints, wrist) - position_m(joints, shoulder), DVec3::NEG_Z)
-}
-
-/// Angle off straight down of straight arms that point aside, the lesser of both; 0 for other arms.
-fn arms_out_deg(joints: &HumanJoints) -> f64 {
-    let [left, right] = ARMS.map(|[shoulder, _, _]| position_m(joints, shoulder));
-    let to_left = (left - right).with_z(0.0).normalize_or_zero();
-    let out_deg = |[shoulder, elbow, wrist]: [Joint; 3], outward: DVec3| {
-        let [upper, fore] =
-            [[shoulder, elbow], [elbow, wrist]].map(|[from, to]| position_m(joints, to) - position_m(joints, from));
-        let arm = upper + fore;
-        let (aside_m, ahead_m) = (arm.dot(outward), arm.dot(DVec3::Z.cross(outward)));
-        let is_straight = angle_deg(upper, fore) < STRAIGHT_DEG && ahead_m.abs() < aside_m;
-        if is_straight { libm::atan2(aside_m, -arm.z).to_degrees().max(0.0) } else { 0.0 }
-    };
-    out_deg(ARMS[0], to_left).min(out_deg(ARMS[1], -to_left))
-}
-
-fn angle_deg(a: DVec3, b: DVec3) -> f64 {
-    libm::acos(a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0)).to_degrees()
 }

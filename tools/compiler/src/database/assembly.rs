@@ -13,7 +13,8 @@ use crate::database::rows::rows;
 use crate::database::skeleton::skeleton;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanBody;
-use crate::select::named_cycles::SelectedCycles;
+use crate::select::ease::unease_mps;
+use crate::select::named_cycles::{NamedCycle, SelectedCycles};
 
 /// The database of cycles sorted by name; it may still be invalid.
 ///
@@ -34,7 +35,7 @@ pub(crate) fn assemble(
     let examples: Vec<MotionExample> = cycles.iter().map(|named| motion_example(named, body)).collect();
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
     observer(CompileEvent::Stage("blend space"));
-    let flaws: Vec<f64> = cycles.iter().map(|named| named.flaws).collect();
+    let flaws: Vec<f64> = cycles.iter().map(|named| flaws_beside_others(named, body)).collect();
     let blend_space = blend_space_of_best(&parameters, &flaws);
     note_coincident(&coincident_pairs(&parameters, &blend_space), &cycles, body, &mut sources);
     observer(CompileEvent::Stage("assembly"));
@@ -56,4 +57,13 @@ pub(crate) fn assemble(
     let base_walk = cycles.iter().position(|named| named.choices.is_semi_procedural);
     db.correspondence = base_walk.and_then(|example| Correspondence::of(&db, example));
     db
+}
+
+/// Flaws of a cycle where others have its parameters: those of its window, and how little the body is at ease. m_sp has
+/// none, so that it is blended itself.
+fn flaws_beside_others(named: &NamedCycle, body: &HumanBody) -> f64 {
+    if named.choices.is_semi_procedural && !named.mirrored {
+        return f64::NEG_INFINITY;
+    }
+    named.flaws + unease_mps(&named.cycle, body)
 }

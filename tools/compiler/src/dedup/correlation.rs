@@ -39,6 +39,8 @@ type Legs = [f32; LEG_COUNT];
 pub(crate) struct Series {
     /// Rows of the signature about their mean.
     pub(crate) rows: Vec<Row>,
+    /// Mean of the signature; none where only its rows about their mean are known.
+    mean: Option<Row>,
     /// Running sums of the rows.
     sums: Vec<Row>,
     /// Running sums of the squares of the rows' directions.
@@ -54,9 +56,17 @@ pub(crate) struct Series {
 impl Series {
     /// Prepares a signature.
     pub(crate) fn of(rows: &[Row]) -> Self {
-        let sum = rows.iter().fold([0.0; WIDTH], |sum, row| std::array::from_fn(|at| sum[at] + f64::from(row[at])));
-        let mean: Row = sum.map(|sum| (sum / rows.len() as f64) as f32);
-        let rows: Vec<Row> = rows.iter().map(|row| minus(row, &mean)).collect();
+        let mean = mean(rows);
+        Self { mean: Some(mean), ..Self::about(rows, &mean) }
+    }
+
+    /// Prepares a signature of which only rows about a mean are known.
+    pub(crate) fn about_mean(rows: &[Row]) -> Self {
+        Self::about(rows, &mean(rows))
+    }
+
+    fn about(rows: &[Row], mean: &Row) -> Self {
+        let rows: Vec<Row> = rows.iter().map(|row| minus(row, mean)).collect();
         let (mut sums, mut squares) = (vec![[0.0; WIDTH]], vec![0.0]);
         for (index, row) in rows.iter().enumerate() {
             sums.push(std::array::from_fn(|at| sums[index][at] + row[at]));
@@ -66,7 +76,7 @@ impl Series {
         let probes = probes(&legs);
         let mut probed = Squares::default();
         probes.iter().for_each(|&probe| probed.add(legs[probe]));
-        Self { probe_squares: probed.about_mean(), rows, sums, squares, legs, probes }
+        Self { probe_squares: probed.about_mean(), rows, mean: None, sums, squares, legs, probes }
     }
 
     /// Mean of `count` rows, and sum of squares of their directions about it.
@@ -75,6 +85,12 @@ impl Series {
         let mean: Row = std::array::from_fn(|at| (after[at] - before[at]) / count as f32);
         let of_mean = count as f32 * mean[..FACING].iter().map(|value| value * value).sum::<f32>();
         (mean, (self.squares[from + count] - self.squares[from] - of_mean).max(0.0))
+    }
+
+    /// Mean of `count` rows of the signature, if it is known.
+    pub(crate) fn mean_of(&self, from: usize, count: usize) -> Option<Row> {
+        let (mean, (about_mean, _)) = (self.mean?, self.moments(from, count));
+        Some(std::array::from_fn(|at| mean[at] + about_mean[at]))
     }
 
     /// Lags, in rows of this longer series, at which it covers most of a shorter one.
@@ -183,6 +199,12 @@ impl Squares {
     fn about_mean(&self) -> f32 {
         (0..LEG_COUNT).map(|leg| self.squares[leg] - self.sums[leg] * self.sums[leg] / self.count).sum()
     }
+}
+
+/// Mean of all rows.
+fn mean(rows: &[Row]) -> Row {
+    let sum = rows.iter().fold([0.0; WIDTH], |sum, row| std::array::from_fn(|at| sum[at] + f64::from(row[at])));
+    sum.map(|sum| (sum / rows.len() as f64) as f32)
 }
 
 fn minus(a: &Row, b: &Row) -> Row {

@@ -143,6 +143,9 @@ fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
+    use motiondb::body::Joint;
+
     use super::*;
     use crate::cycle::analyzed_clip::AnalyzedClip;
     use crate::ground::root_arc::Rates;
@@ -207,6 +210,24 @@ mod tests {
             idle("idle", 3.0),
         ];
         assert_eq!(pairs(&clips), []);
+    }
+
+    /// The bend with both elbows bent further.
+    fn with_elbows(bent_deg: f64) -> HumanClip {
+        let mut clip = walk("elbows", bend());
+        for (joint, side) in [(Joint::LeftForearm, -1.0), (Joint::RightForearm, 1.0)] {
+            let turn = DQuat::from_rotation_z(side * bent_deg.to_radians());
+            clip.frames.iter_mut().for_each(|pose| pose.rotations[joint.index()] *= turn);
+        }
+        clip
+    }
+
+    #[test]
+    fn other_arms_make_another_take() {
+        check_one_take(walk("bend", bend()), with_elbows(20.0), false, false);
+        check_one_take(mirrored(walk("bend", bend())), with_elbows(20.0), true, false);
+        assert_eq!(pairs(&[walk("bend", bend()), with_elbows(70.0)]), []);
+        assert_eq!(pairs(&[mirrored(walk("bend", bend())), with_elbows(70.0)]), []);
     }
 
     /// Begin of each window that is left of each clip, s, and the clip's diagnostics.

@@ -2,13 +2,14 @@
 //! and the frame rate.
 //!
 //! A row holds eight unit vectors (thighs, shanks, upper arms, trunk, forward axis of the head) in the frame of the
-//! facing: x forward, y left, z up; first all x, then all y, then all z. The facing in the world comes last, radians.
-//! Forearms and feet are left out: exporters differ by 10° in them. A row is the mean over its twentieth of a second.
-//! So noise and the source's frame rate hardly show.
+//! facing: x forward, y left, z up; first all x, then all y, then all z. The facing in the world follows, radians, and
+//! then the unit vectors of both forearms, whose mean alone is compared: exporters differ by 10° in them. Feet are left
+//! out for the same reason. A row is the mean over its twentieth of a second. So noise and the source's frame rate
+//! hardly show.
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, Vec3};
 use motiondb::body::Joint;
 
 use crate::retarget::human_clip::{HumanBody, HumanClip, HumanPose};
@@ -21,10 +22,14 @@ pub(crate) const DIRECTION_COUNT: usize = 8;
 pub(crate) const LEG_COUNT: usize = 4;
 /// Index of the facing in a row, after the coordinates of the unit vectors.
 pub(crate) const FACING: usize = 3 * DIRECTION_COUNT;
+/// Index of the first coordinate of the forearms in a row: both x, both y, both z.
+const FOREARMS: usize = FACING + 1;
 /// Number of values in a row.
-pub(crate) const WIDTH: usize = FACING + 1;
+pub(crate) const WIDTH: usize = FOREARMS + 3 * 2;
 /// Points in time that a row is the mean of: 120 a second.
 const POINTS_PER_ROW: usize = 6;
+/// Index of the left upper arm among the directions; the right one follows.
+const UPPER_ARM: usize = 4;
 /// Joints that each direction points from and to, left before right. The eighth direction is the head's forward axis.
 const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::LeftThigh, Joint::LeftShank],
@@ -35,6 +40,8 @@ const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::RightUpperArm, Joint::RightForearm],
     [Joint::Pelvis, Joint::Neck],
 ];
+/// Joints that the directions of the forearms point from and to, left before right.
+const FOREARM_BONES: [[Joint; 2]; 2] = [[Joint::LeftForearm, Joint::LeftHand], [Joint::RightForearm, Joint::RightHand]];
 /// Index of each direction in a mirror.
 const MIRRORED: [usize; DIRECTION_COUNT] = [1, 0, 3, 2, 5, 4, 6, 7];
 
@@ -59,12 +66,23 @@ pub(crate) fn faster(rows: &[Row], pace: f64) -> Vec<Row> {
 
 /// The rows of the mirror image.
 pub(crate) fn mirrored(rows: &[Row]) -> Vec<Row> {
-    let value = |row: &Row, at: usize| match at / DIRECTION_COUNT {
-        axis @ (0 | 2) => row[DIRECTION_COUNT * axis + MIRRORED[at % DIRECTION_COUNT]],
-        1 => -row[DIRECTION_COUNT + MIRRORED[at % DIRECTION_COUNT]],
-        _ => -row[FACING],
+    let value = |row: &Row, at: usize| {
+        let (axis, source) = match at {
+            FACING => (1, FACING),
+            FOREARMS.. => ((at - FOREARMS) / 2, FOREARMS + ((at - FOREARMS) ^ 1)),
+            _ => (at / DIRECTION_COUNT, at - at % DIRECTION_COUNT + MIRRORED[at % DIRECTION_COUNT]),
+        };
+        if axis == 1 { -row[source] } else { row[source] }
     };
     rows.iter().map(|row| std::array::from_fn(|at| value(row, at))).collect()
+}
+
+/// Directions of both upper arms and both forearms.
+pub(crate) fn arms(row: &Row) -> [Vec3; 4] {
+    let vector = |first: usize, count: usize| Vec3::from_array([0, 1, 2].map(|axis| row[first + axis * count]));
+    let upper_arm = |side: usize| vector(UPPER_ARM + side, DIRECTION_COUNT);
+    let forearm = |side: usize| vector(FOREARMS + side, 2);
+    [upper_arm(0), upper_arm(1), forearm(0), forearm(1)]
 }
 
 /// Interpolates between each two rows; `share` 0 gives the first, 1 the second.
@@ -83,8 +101,16 @@ fn row(pose: &HumanPose, body: &HumanBody) -> Row {
         None => joints.orientations[Joint::Head.index()] * DVec3::X,
     };
     let directions: [DVec3; DIRECTION_COUNT] = std::array::from_fn(|index| turn_back * direction(index));
-    let coordinate = |at: usize| directions[at % DIRECTION_COUNT][at / DIRECTION_COUNT];
-    std::array::from_fn(|at| if at == FACING { facing_rad } else { coordinate(at) } as f32)
+    let forearms = [0, 1].map(|side| {
+        let [elbow, wrist] = FOREARM_BONES[side];
+        turn_back * (position_m(wrist) - position_m(elbow)).normalize_or_zero()
+    });
+    let coordinate = |at: usize| match at {
+        FACING => facing_rad,
+        FOREARMS.. => forearms[(at - FOREARMS) % 2][(at - FOREARMS) / 2],
+        _ => directions[at % DIRECTION_COUNT][at / DIRECTION_COUNT],
+    };
+    std::array::from_fn(|at| coordinate(at) as f32)
 }
 
 /// Means over successive intervals of `step` rows; the first interval begins at row `first`.

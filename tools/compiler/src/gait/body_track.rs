@@ -3,8 +3,10 @@
 //! World frame: metres, seconds, radians, Z up; one value a frame.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use glam::DVec2;
+use motiondb::body::Joint;
 
 use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::RootSample;
@@ -22,6 +24,8 @@ pub(crate) struct BodyTrack<'a> {
     pub(crate) hips_m: Vec<DVec2>,
     /// Facing at each frame, without jumps of 2π, rad.
     pub(crate) facing_rad: Vec<f64>,
+    /// Ankles on the ground at each frame, `[left, right]`, m.
+    pub(crate) ankles_m: Vec<[DVec2; 2]>,
 }
 
 /// Position and facing of a body over a clip.
@@ -37,8 +41,8 @@ impl<'a> BodyTrack<'a> {
     /// The track of a clip. `see` gets the joints of each frame; they are not kept.
     pub(crate) fn of(clip: &'a GroundedClip<'a>, body: &'a HumanBody, mut see: impl FnMut(&HumanJoints)) -> Self {
         let frame_rate_hz = clip.frame_rate_hz;
-        let (joint_path_m, hips_m, facing_rad) = (Vec::new(), Vec::new(), Vec::new());
-        let mut track = Self { clip, body, frame_rate_hz, joint_path_m, hips_m, facing_rad };
+        let (joint_path_m, hips_m, facing_rad, ankles_m) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut track = Self { clip, body, frame_rate_hz, joint_path_m, hips_m, facing_rad, ankles_m };
         let mut before: Option<HumanJoints> = None;
         for frame in 0..clip.frame_count() {
             let joints = track.joints(frame);
@@ -56,6 +60,7 @@ impl<'a> BodyTrack<'a> {
         let jump_rad = self.facing_rad.last().map_or(0.0, |last_rad| facing_rad - last_rad);
         self.joint_path_m.push(self.joint_path_m.last().map_or(0.0, |path_m| path_m + step_m));
         self.hips_m.push(joints.hips_m().truncate());
+        self.ankles_m.push(Joint::FEET.map(|foot| joints.positions_m[foot.index()].truncate()));
         self.facing_rad.push(facing_rad - TAU * libm::round(jump_rad / TAU));
     }
 
@@ -85,6 +90,14 @@ impl<'a> BodyTrack<'a> {
     pub(crate) fn net_speed_mps(&self) -> f64 {
         let (first, last) = (self.hips_m[0], self.hips_m[self.hips_m.len() - 1]);
         first.distance(last) * self.frame_rate_hz / self.hips_m.len() as f64
+    }
+
+    /// Greatest distance of an ankle on the ground, in some frames, from where it is in the first, m.
+    pub(crate) fn ankles_travel_m(&self, frames: Range<usize>) -> f64 {
+        let first_m = self.ankles_m[frames.start];
+        let travel_m =
+            |side: usize| frames.clone().map(move |frame| self.ankles_m[frame][side].distance(first_m[side]));
+        travel_m(0).chain(travel_m(1)).fold(0.0, f64::max)
     }
 
     /// Hips and facing at a fractional frame, linearly between frames, with the time that the caller gives them.

@@ -7,10 +7,13 @@ use std::ops::Range;
 use crate::frame_runs::frame_runs;
 use crate::gait::body_track::BodyTrack;
 
-/// Speed of the hips below which a body stands, m/s.
+/// Speed of hips and ankles below which a body stands, m/s.
 const STANDING_SPEED_MPS: f64 = 0.06;
 /// Mean speed of the joints below which a body stands, m/s: breathing and weight shifts have 0.003–0.02, dances more.
 pub(crate) const STANDING_JOINT_SPEED_MPS: f64 = 0.06;
+/// Greatest distance of an ankle of a body that stands from where it was, m. Captured idles: up to 0.04; a body on a turntable
+/// passes it at 50°.
+const ANKLES_TRAVEL_MAX_M: f64 = 0.1;
 /// Share of its frames for which each foot of a clip that stands as a whole is planted.
 const STANDING_SHARE_MIN: f64 = 0.95;
 /// Least duration of a clip that stands, s; shorter clips are poses.
@@ -27,6 +30,7 @@ pub(crate) fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
         && track.net_speed_mps() < STANDING_SPEED_MPS
         && track.mean_joint_speed_mps() < STANDING_JOINT_SPEED_MPS
         && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
+        && track.ankles_travel_m(0..track.frame_count()) < ANKLES_TRAVEL_MAX_M
 }
 
 /// The rests within some frames of a clip that also moves, in order of time.
@@ -38,6 +42,7 @@ pub(crate) fn rests(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: Range<u
         .into_iter()
         .filter(|rest| rest.len() as f64 > length_min)
         .map(|rest| frames.start + rest.start..frames.start + rest.end)
+        .filter(|rest| track.ankles_travel_m(rest.clone()) < ANKLES_TRAVEL_MAX_M)
         .collect()
 }
 
@@ -47,7 +52,7 @@ pub(crate) fn longest(rests: &[Range<usize>]) -> Option<&Range<usize>> {
     rests.iter().rev().max_by_key(|rest| rest.len())
 }
 
-/// Whether hips and joints are at rest about each frame.
+/// Whether hips, ankles and joints are at rest about each frame.
 fn still_frames(track: &BodyTrack) -> Vec<bool> {
     let path_m = &track.joint_path_m;
     let half = ((0.5 * REST_SPAN_S * track.frame_rate_hz) as usize).max(1);
@@ -55,6 +60,9 @@ fn still_frames(track: &BodyTrack) -> Vec<bool> {
         let (before, after) = (frame.saturating_sub(half), (frame + half).min(path_m.len() - 1));
         let span_s = (after - before) as f64 / track.frame_rate_hz;
         path_m[after] - path_m[before] < STANDING_JOINT_SPEED_MPS * span_s
+            && [0, 1].iter().all(|&side| {
+                track.ankles_m[after][side].distance(track.ankles_m[before][side]) < STANDING_SPEED_MPS * span_s
+            })
             && track.hips_m[after].distance(track.hips_m[before]) < STANDING_SPEED_MPS * span_s
     };
     (0..path_m.len()).map(is_still).collect()

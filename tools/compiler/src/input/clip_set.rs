@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use rayon::prelude::*;
 
 use crate::error::{CompileError, Rejection};
-use crate::import::{self, ImportedClip};
+use crate::import::{self, ImportedClip, Importer};
 use crate::input::clip_settings::ClipSettings;
 use crate::input::manifest::Manifest;
+use crate::input::rig_units::unify_units;
 use crate::input::unique_names;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanClip;
@@ -32,9 +33,6 @@ impl ClipSet {
     }
 }
 
-/// The import of the clips of one file.
-pub(crate) type Importer<'a> = dyn Fn(&ClipSettings) -> Result<Vec<ImportedClip>, Rejection> + Sync + 'a;
-
 /// Imports all clips of a manifest. A file that cannot be used is rejected and does not stop the others.
 ///
 /// # Errors
@@ -51,7 +49,8 @@ pub(crate) fn clip_set(manifest: &Manifest, importer: &Importer, observer: &Obse
         observer(CompileEvent::Imported(&settings.path));
         imported
     };
-    let imports: Vec<Result<Vec<ImportedClip>, Rejection>> = manifest.clips.par_iter().map(import).collect();
+    let mut imports: Vec<Result<Vec<ImportedClip>, Rejection>> = manifest.clips.par_iter().map(import).collect();
+    unify_units(&manifest.clips, &mut imports, importer);
     let mut set = ClipSet::default();
     let styles = manifest.styles();
     for ((settings, style), imported) in manifest.clips.iter().zip(styles).zip(imports) {

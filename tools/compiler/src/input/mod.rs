@@ -3,7 +3,7 @@
 //! Enters: files, folders, a manifest. Leaves: one [`ClipSettings`] for each clip and the [`Options`] of the whole set;
 //! then, as [`ClipSet`], the imported clips in the order of a database, each with a unique name.
 //!
-//! Read `clip_settings` and `options`, then `manifest`, then `clip_set`. `clip_files` finds clips in folders;
+//! Read `clip_settings` and `options`, then `manifest`, then `clip_set` with `rig_units`. `clip_files` finds clips in folders;
 //! `style_names` finds styles in paths; `unique_names` and `name_suggestions` help with names.
 
 pub(crate) mod clip_files;
@@ -12,6 +12,7 @@ pub(crate) mod clip_settings;
 pub mod manifest;
 pub(crate) mod name_suggestions;
 pub(crate) mod options;
+pub(crate) mod rig_units;
 pub(crate) mod style_names;
 pub(crate) mod unique_names;
 
@@ -21,3 +22,4 @@ pub use clip_settings::{ClipSettings, ManifestSpans};
 pub use manifest::Manifest;
 pub use name_suggestions::nearest_first;
 pub use options::Options;
+pub use style_names::manners_in_names;

@@ -2,8 +2,12 @@
 //!
 //! 1. File names of published sets: `Angry_FW.bvh` beside other movements of the same style (100STYLE),
 //!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
-//! 2. Folders side by side that each hold a walk, by its name, and are named by words without digits. The name of one is
-//!    a known manner of moving. So folders of subjects, sexes, takes and movements are no styles.
+//! 2. Folders side by side that are named by known manners of moving, at least two of them. Numbers and words for movements
+//!    may stand beside the manner: `01_elderly`, `Happy Walk`.
+//! 3. Folders side by side that each hold a walk, by its name, and are named by words without digits, at least one of them by
+//!    a known manner.
+//!
+//! So folders of subjects, sexes, takes and movements are no styles.
 //!
 //! A style is a manner in which anybody can move: old, drunk, happy. Who moves is none, a woman, a child or an actor:
 //! other bodies of another sex are no reason for an agent to move otherwise.
@@ -97,21 +101,40 @@ const MANNERS: [&str; 75] = [
     "youthful",
     "zombie",
 ];
-/// Words for movements, directions, speeds, parts of a collection, and for who moves: folders of these names hold no style.
-const NOT_STYLES: [&str; 73] = [
+/// Words for who moves: folders of these names hold no style.
+const PEOPLE: [&str; 23] = [
     "actor",
     "actors",
     "actress",
+    "boy",
+    "boys",
+    "child",
+    "children",
+    "female",
+    "females",
+    "girl",
+    "girls",
+    "ladies",
+    "lady",
+    "male",
+    "males",
+    "man",
+    "men",
+    "people",
+    "performer",
+    "person",
+    "subject",
+    "woman",
+    "women",
+];
+/// Words for movements, directions, speeds and parts of a collection: folders of these names alone hold no style.
+const MOVEMENTS: [&str; 50] = [
     "animation",
     "animations",
     "anims",
     "back",
     "backward",
-    "boy",
-    "boys",
     "bvh",
-    "child",
-    "children",
     "circle",
     "clips",
     "copy",
@@ -119,13 +142,9 @@ const NOT_STYLES: [&str; 73] = [
     "dataset",
     "fast",
     "fbx",
-    "female",
-    "females",
     "forward",
     "gait",
     "gaits",
-    "girl",
-    "girls",
     "glb",
     "gltf",
     "idle",
@@ -133,22 +152,13 @@ const NOT_STYLES: [&str; 73] = [
     "jog",
     "jogs",
     "jump",
-    "ladies",
-    "lady",
     "left",
     "locomotion",
-    "male",
-    "males",
-    "man",
-    "men",
     "misc",
     "mocap",
     "motion",
     "motions",
     "other",
-    "people",
-    "performer",
-    "person",
     "raw",
     "right",
     "run",
@@ -161,7 +171,6 @@ const NOT_STYLES: [&str; 73] = [
     "step",
     "stop",
     "strafe",
-    "subject",
     "test",
     "train",
     "turn",
@@ -170,8 +179,6 @@ const NOT_STYLES: [&str; 73] = [
     "walk",
     "walking",
     "walks",
-    "woman",
-    "women",
 ];
 /// Styles that serve agents without a style where no clip is without one, the first that the set has.
 pub(crate) const NEUTRAL_STYLES: [&str; 2] = ["neutral", "normal"];
@@ -205,7 +212,7 @@ fn style_of_name(path: &Path, of_codes: &BTreeSet<String>) -> Option<String> {
     }
 }
 
-/// Styles that have a walk and another movement by the codes of 100STYLE.
+/// Styles that have a walk and another movement by the codes of 100STYLE; beside these, known manners with any movement.
 fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
     let mut codes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for path in paths {
@@ -215,35 +222,91 @@ fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
             codes.entry(style.to_owned()).or_default().insert(code.to_owned());
         }
     }
-    codes.retain(|_, codes| codes.contains("fw") && codes.len() > 1);
+    let is_whole = |codes: &BTreeSet<String>| codes.contains("fw") && codes.len() > 1;
+    let has_whole = codes.values().any(is_whole);
+    codes.retain(|style, codes| is_whole(codes) || has_whole && MANNERS.contains(&style.as_str()));
     codes.into_keys().collect()
 }
 
-/// Folders that hold the clips of one style.
+/// Words for known manners of moving in the names of files, in alphabetical order.
+pub fn manners_in_names<'a>(names: impl IntoIterator<Item = &'a str>) -> BTreeSet<&'static str> {
+    let words: BTreeSet<String> = names
+        .into_iter()
+        .flat_map(|name| stem(Path::new(name)).split(is_joint).map(str::to_owned).collect::<Vec<_>>())
+        .collect();
+    MANNERS.into_iter().filter(|manner| words.contains(*manner)).collect()
+}
+
+/// Folders that hold the clips of one style, and the style of each.
 struct StyleFolders<'a> {
-    folders: BTreeSet<&'a Path>,
+    styles: BTreeMap<&'a Path, String>,
+}
+
+/// A folder that may hold the clips of one style.
+struct StyleFolder {
+    style: String,
+    /// The style is a known manner of moving.
+    is_manner: bool,
+    /// The folder holds a clip that is a walk by its name.
+    has_walk: bool,
+}
+
+impl StyleFolder {
+    /// A folder by its name: a known manner beside numbers and words for movements, or other words. None where a word says
+    /// who moves.
+    fn named(name: &str) -> Option<Self> {
+        let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+        if name.split(is_joint).any(|word| PEOPLE.contains(&word)) {
+            return None;
+        }
+        let words: Vec<&str> =
+            name.split(is_joint).filter(|word| !is_number(word) && !MOVEMENTS.contains(word)).collect();
+        let manner = words.join("-");
+        let is_manner = MANNERS.contains(&manner.as_str());
+        let style = if is_manner { manner } else { name.to_owned() };
+        (is_manner || is_style_word(name)).then_some(Self { style, is_manner, has_walk: false })
+    }
 }
 
 impl<'a> StyleFolders<'a> {
     fn of(paths: &[&'a Path]) -> Self {
-        // Folders side by side that hold a walk.
-        let mut siblings: BTreeMap<&Path, BTreeSet<&Path>> = BTreeMap::new();
+        let mut siblings: BTreeMap<&Path, BTreeMap<&Path, StyleFolder>> = BTreeMap::new();
         for path in paths {
             for folder in path.ancestors().skip(1) {
                 let (Some(parent), Some(name)) = (folder.parent(), named(folder)) else { continue };
-                if is_style_word(&name) && is_walk(&without(&stem(path), &name)) {
-                    siblings.entry(parent).or_default().insert(folder);
+                let Some(found) = StyleFolder::named(&name) else { continue };
+                let found = siblings.entry(parent).or_default().entry(folder).or_insert(found);
+                found.has_walk |= is_walk(&without(&stem(path), &name));
+            }
+        }
+        let mut styles = BTreeMap::new();
+        let mut manners = Vec::new();
+        for folders in siblings.into_values() {
+            let count = |counts: &dyn Fn(&StyleFolder) -> bool| {
+                let styles = folders.values().filter(|found| counts(found)).map(|found| &found.style);
+                styles.collect::<BTreeSet<&String>>().len()
+            };
+            let are_manners = count(&|found| found.is_manner) > 1;
+            let are_styles =
+                count(&|found| found.has_walk) > 1 && count(&|found| found.has_walk && found.is_manner) > 0;
+            let is_style = |found: &StyleFolder| are_manners && found.is_manner || are_styles && found.has_walk;
+            for (folder, found) in folders {
+                if is_style(&found) {
+                    styles.insert(folder, found.style);
+                } else if found.is_manner {
+                    manners.push((folder, found.style));
                 }
             }
         }
-        let is_manner = |folder: &&Path| named(folder).is_some_and(|name| MANNERS.contains(&name.as_str()));
-        let are_styles = |folders: &BTreeSet<&Path>| folders.len() > 1 && folders.iter().any(is_manner);
-        Self { folders: siblings.into_values().filter(are_styles).flatten().collect() }
+        // A manner that is a style elsewhere in the set: `bob/angry` beside `anna/angry` and `anna/happy`.
+        let found: BTreeSet<String> = styles.values().cloned().collect();
+        styles.extend(manners.into_iter().filter(|(_, manner)| found.contains(manner)));
+        Self { styles }
     }
 
-    /// The name of the innermost such folder around a clip.
+    /// The style of the innermost such folder around a clip.
     fn style(&self, path: &Path) -> Option<String> {
-        path.ancestors().skip(1).find(|folder| self.folders.contains(folder)).and_then(named)
+        path.ancestors().skip(1).find_map(|folder| self.styles.get(folder)).cloned()
     }
 }
 
@@ -278,7 +341,7 @@ fn is_word(name: &str) -> bool {
 
 /// Whether a style may have this name: no number, no movement.
 fn is_style_word(name: &str) -> bool {
-    let is_other = |word: &str| NOT_STYLES.contains(&word);
+    let is_other = |word: &str| MOVEMENTS.contains(&word) || PEOPLE.contains(&word);
     is_word(name) && name.chars().count() > 2 && !name.split(is_joint).any(is_other)
 }
 
@@ -313,7 +376,24 @@ mod tests {
         check(&[("07/walk.bvh", ""), ("12/walk.bvh", "")]);
         check(&[("vendor/walk1.bvh", ""), ("studio/ezgi_walk.bvh", "")]);
         check(&[("elderly/walk.bvh", ""), ("elderly/walk_fast.bvh", "")]);
-        check(&[("elderly/walk.bvh", ""), ("angry/run.bvh", "")]);
+        check(&[("elderly/walk.bvh", ""), ("studio/run.bvh", "")]);
+    }
+
+    #[test]
+    fn folders_of_two_manners_are_styles_without_walks() {
+        check(&[("elderly/take001.bvh", "elderly"), ("happy/take001.bvh", "happy"), ("studio/take001.bvh", "")]);
+        check(&[("01_elderly/a.bvh", "elderly"), ("02_happy/a.bvh", "happy"), ("03/a.bvh", "")]);
+        check(&[("Elderly Walk/a.bvh", "elderly"), ("Not Confident/a.bvh", "not-confident")]);
+        check(&[("01_elderly/walk.bvh", ""), ("02_elderly/walk.bvh", "")]);
+        check(&[("Old Man/a.bvh", ""), ("Young Woman/a.bvh", "")]);
+        check(&[("anna/angry/a.bvh", "angry"), ("anna/happy/a.bvh", "happy"), ("bob/angry/a.bvh", "angry")]);
+        check(&[("men/elderly/a.bvh", "elderly"), ("women/elderly/a.bvh", "elderly"), ("men/happy/a.bvh", "happy")]);
+    }
+
+    #[test]
+    fn manners_in_file_names_are_found() {
+        let names = ["elderly_walk.bvh", "Walk-Happy.glb", "happy.bvh", "walk_110.bvh"];
+        assert_eq!(manners_in_names(names).into_iter().collect::<Vec<_>>(), ["elderly", "happy"]);
     }
 
     #[test]
@@ -334,6 +414,7 @@ mod tests {
     #[test]
     fn names_of_published_sets_state_styles() {
         check(&[("100STYLE/Angry/Angry_FW.bvh", "angry"), ("100STYLE/Angry/Angry_ID.bvh", "angry")]);
+        check(&[("Angry_FW.bvh", "angry"), ("Angry_BW.bvh", "angry"), ("Happy_FW.bvh", "happy"), ("Take_FW.bvh", "")]);
         check(&[("BeatChest_FW.bvh", "beatchest"), ("BeatChest_TR1.bvh", "beatchest"), ("Walk_FW.bvh", "")]);
         check(&[
             ("dataset-1_walk_elderly_001.bvh", "elderly"),

@@ -38,6 +38,8 @@ pub struct HumanClip {
     pub in_place_mps: Option<DVec2>,
     /// Parts in which the body is not upright, in order of time.
     pub low_parts: Vec<LowPart>,
+    /// Parts in which the body stands with its arms spread, as in a bind pose, in order of time.
+    pub spread_parts: Vec<Range<usize>>,
     /// Frames in which the pose jumps, in order of time.
     pub jumps: Vec<Range<usize>>,
     /// Why the clip gives no example, where import finds a reason.
@@ -130,9 +132,11 @@ impl HumanClip {
         if self.choices.takes_any_posture { &[] } else { &self.low_parts }
     }
 
-    /// Frames of which no example and no transition is made: those of the parts that are left out, and jumps.
+    /// Frames of which no example and no transition is made: those of the parts that are left out, of bind poses, and
+    /// jumps.
     pub(crate) fn left_out_frames(&self) -> Vec<Range<usize>> {
-        self.left_out_parts().iter().map(|part| &part.frames).chain(&self.jumps).cloned().collect()
+        let low = self.left_out_parts().iter().map(|part| &part.frames);
+        low.chain(&self.spread_parts).chain(&self.jumps).cloned().collect()
     }
 
     /// Whether the body is upright from one second of the file to another.

@@ -29,8 +29,13 @@ const RUNNING_LEG_MIN: f64 = 0.62;
 const WALKING_MPS: f64 = 1.2;
 /// Speed from which the limit of a run holds, m/s for a person's leg.
 const RUNNING_MPS: f64 = 2.2;
-/// Greatest lean of an upright trunk, degrees. Development set: 38 in the lowest twentieth of a sprint's start.
+/// Greatest lean of an upright trunk that walks or runs, degrees. Development set: 38 in the lowest twentieth of a
+/// sprint's start.
 const LEAN_MAX_DEG: f64 = 50.0;
+/// The same of a body that stands. A deeper lean is a bow, or a reach for the ground. Idles of the development set: up to 24.
+const STANDING_LEAN_MAX_DEG: f64 = 40.0;
+/// Speed from which the limit of a walk holds, m/s for a person's leg; below it the limit falls evenly.
+const LEANING_WALK_MPS: f64 = 0.3;
 /// Height over the ankles below which a knee is on the ground, leg lengths. The rear knee of a crouched walk: 0.16.
 const KNEE_ON_GROUND_MAX: f64 = 0.11;
 /// Height over the ankles below which a wrist is that of a hand on the ground, leg lengths.
@@ -61,8 +66,8 @@ pub(crate) fn low_parts(clip: &SourceClip, roles: &Roles, parameters: &SourcePar
     let speeds_mps = moving_mean(frames.clone().map(|frame| legs.speed_mps(frame)), half);
     let is_low: Vec<bool> = frames
         .map(|frame| {
-            let least_leg = legs.least_leg(ground_mps.max(speeds_mps[frame]));
-            leg_shares[frame] < least_leg || lean_deg(leans[frame]) > LEAN_MAX_DEG
+            let human_mps = legs.human_mps(ground_mps.max(speeds_mps[frame]));
+            leg_shares[frame] < least_leg(human_mps) || lean_deg(leans[frame]) > lean_max_deg(human_mps)
         })
         .collect();
     frame_runs(&is_low, true).into_iter().map(|frames| legs.low_part(frames)).collect()
@@ -111,17 +116,15 @@ impl LegHeights<'_> {
         hips(frame).distance(hips(frame - 1)) * self.clip.frame_rate_hz
     }
 
-    /// Least [`Self::straighter_leg`] of an upright body at a speed. Speeds of legs of another length scale with its
-    /// root.
-    fn least_leg(&self, speed_mps: f64) -> f64 {
-        let human_mps = speed_mps * (HUMAN_LEG_M / self.leg_m).sqrt();
-        let run = ((human_mps - WALKING_MPS) / (RUNNING_MPS - WALKING_MPS)).clamp(0.0, 1.0);
-        WALKING_LEG_MIN + run * (RUNNING_LEG_MIN - WALKING_LEG_MIN)
+    /// The speed of a person at which this body has a speed, m/s: speeds of legs of another length scale with its root.
+    fn human_mps(&self, speed_mps: f64) -> f64 {
+        speed_mps * (HUMAN_LEG_M / self.leg_m).sqrt()
     }
 
-    /// What the body does in frames in which it is not upright, five cases:
-    /// - trunk upright, a knee low: it kneels;
-    /// - trunk upright, knees high: it crouches;
+    /// What the body does in frames in which it is not upright, six cases:
+    /// - trunk as in a run, a knee low: it kneels;
+    /// - trunk as in a run, but not as in a body that stands: it bends over;
+    /// - trunk upright: it crouches;
     /// - trunk not upright, hips low: it lies;
     /// - hips high, a hand low: it goes on its hands;
     /// - hands high: it bends over.
@@ -136,6 +139,7 @@ impl LegHeights<'_> {
         let trunk = frames.clone().map(|frame| self.trunk(frame)).sum::<DVec3>();
         let posture = match lean_deg(trunk) > LEAN_MAX_DEG {
             false if lower(Joint::SHANKS) < KNEE_ON_GROUND_MAX => Posture::Kneeling,
+            false if lean_deg(trunk) > STANDING_LEAN_MAX_DEG => Posture::BentOver,
             false => Posture::Crouching,
             true if lower(Joint::THIGHS) < LYING_MAX => Posture::Lying,
             true if lower([Joint::LeftHand, Joint::RightHand]) < HAND_ON_GROUND_MAX => Posture::OnHands,
@@ -143,6 +147,18 @@ impl LegHeights<'_> {
         };
         LowPart { frames, posture }
     }
+}
+
+/// Least [`LegHeights::straighter_leg`] of an upright body at a person's speed.
+fn least_leg(human_mps: f64) -> f64 {
+    let run = ((human_mps - WALKING_MPS) / (RUNNING_MPS - WALKING_MPS)).clamp(0.0, 1.0);
+    WALKING_LEG_MIN + run * (RUNNING_LEG_MIN - WALKING_LEG_MIN)
+}
+
+/// Greatest lean of an upright trunk at a person's speed, degrees.
+fn lean_max_deg(human_mps: f64) -> f64 {
+    let moving = (human_mps / LEANING_WALK_MPS).min(1.0);
+    STANDING_LEAN_MAX_DEG + moving * (LEAN_MAX_DEG - STANDING_LEAN_MAX_DEG)
 }
 
 /// Angle of a trunk off the vertical, degrees.

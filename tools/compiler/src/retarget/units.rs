@@ -25,11 +25,15 @@ pub const HUMAN_LEG_M: f64 = 0.84;
 const TOO_LONG_WEIGHT: f64 = 1.6;
 /// Units of sources, m, each with its misfit: metre, decimetre, centimetre, millimetre, inch, and 1/0.45 inch of the CMU
 /// files. All misfits are logarithms of ratios. Few tools write the units of great misfit.
-const UNITS: [(f64, f64); 6] = [(1.0, 0.0), (0.1, 0.5), (0.01, 0.0), (0.001, 0.5), (0.0254, 0.6), (0.0564444, 0.65)];
+pub(crate) const UNITS: [(f64, f64); 6] =
+    [(1.0, 0.0), (0.1, 0.5), (0.01, 0.0), (0.001, 0.5), (0.0254, 0.6), (0.0564444, 0.65)];
 /// Strides per second times √(leg length / g), from a slow walk to a sprint (2.4 strides/s on legs of 0.84 m).
 const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
 /// Greatest misfit of a cadence: beyond 1.5 times the range the frame time is wrong, which says nothing of the unit.
 const CADENCE_MISFIT_MAX: f64 = 0.4;
+/// Legs, thigh plus shank, m, that a unit which most tools write may give beside one that few do: from a toy's on. An
+/// adult's legs in inches may be those of a figure of 0.3 m in centimetres.
+const POSSIBLE_LEG_M: RangeInclusive<f64> = 0.2..=2.9;
 /// Gravity, m/s².
 const GRAVITY_MPS2: f64 = 9.81;
 /// Difference of misfits below which the second unit may be the right one: that of legs 1.34 times as long. Legs of an
@@ -40,7 +44,6 @@ const NEAR_MISFIT: f64 = 0.29;
 const LONGEST_PERCENTILE: f64 = 0.9;
 /// Distance of feet and shoulders in a body that stands, divided by their distance when it stands straight.
 const LONG_SHARE: f64 = 0.85;
-
 /// Up axis and unit of a source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceUnits {
@@ -50,7 +53,7 @@ pub struct SourceUnits {
     pub metres_per_unit: f64,
 }
 
-/// The clip in metres, z up, and the up axis and unit that it had. Where two units are nearly as likely, it gets a
+/// The clip in metres, z up, and the up axis and unit that it had. Where another unit may be the right one, it gets a
 /// warning.
 pub fn to_metres_z_up(mut clip: SourceClip, roles: &Roles) -> (SourceClip, SourceUnits) {
     let up = clip.up_axis.unwrap_or_else(|| found_up(&clip, roles));
@@ -66,23 +69,31 @@ pub fn to_metres_z_up(mut clip: SourceClip, roles: &Roles) -> (SourceClip, Sourc
     (clip, SourceUnits { up_axis: up.name(), metres_per_unit })
 }
 
-/// The likeliest unit of a clip with z up, m; adds a warning if the second is nearly as likely.
+/// The likeliest unit of a clip with z up, m; adds a warning if another may be the right one.
 fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
     let leg_units = leg_length(clip, roles);
-    let [best, second] = likeliest_units(leg_units, strides_hz(clip, roles, leg_units));
-    if second.misfit - best.misfit < NEAR_MISFIT {
-        let [leg_m, other_leg_m] = [best, second].map(|unit| (leg_units * unit.unit_m) as f32);
-        let other_unit_m = second.unit_m;
+    let units = likeliest_units(leg_units, strides_hz(clip, roles, leg_units));
+    if let Some(other) = doubt(&units) {
+        let [leg_m, other_leg_m] = [units[0], other].map(|unit| unit.leg_m as f32);
+        let other_unit_m = other.unit_m;
         clip.diagnostics.push(Diagnostic::Warning(Warning::UnitDoubtful { leg_m, other_leg_m, other_unit_m }));
     }
-    best.unit_m
+    units[0].unit_m
+}
+
+/// The unit that may be the right one beside the likeliest: one that is nearly as likely, or a usual one beside a rare
+/// one.
+fn doubt(units: &[UnitMisfit]) -> Option<UnitMisfit> {
+    let (best, others) = units.split_first()?;
+    let is_usual = |unit: &UnitMisfit| unit.unit_misfit == 0.0 && POSSIBLE_LEG_M.contains(&unit.leg_m);
+    let near = others.first().filter(|second| second.misfit - best.misfit < NEAR_MISFIT);
+    near.or_else(|| others.iter().find(|other| best.unit_misfit > 0.0 && is_usual(other))).copied()
 }
 
 /// Removes the doubt about the unit of a clip in metres whose frame time is wrong, unless its legs alone give one: the
 /// cadence says nothing of the unit then.
 pub(crate) fn drop_doubt_of_cadence(clip: &mut SourceClip, roles: &Roles, metres_per_unit: f64) {
-    let [best, second] = likeliest_units(leg_length(clip, roles) / metres_per_unit, None);
-    if second.misfit - best.misfit >= NEAR_MISFIT {
+    if doubt(&likeliest_units(leg_length(clip, roles) / metres_per_unit, None)).is_none() {
         clip.diagnostics.retain(|found| !matches!(found, Diagnostic::Warning(Warning::UnitDoubtful { .. })));
     }
 }
@@ -120,22 +131,27 @@ pub(crate) fn leg_length(clip: &SourceClip, roles: &Roles) -> f64 {
     sum / clip.frame_count() as f64
 }
 
-/// A unit, m, and its misfit.
+/// A unit and its misfits.
 #[derive(Clone, Copy)]
 struct UnitMisfit {
     unit_m: f64,
+    /// Length of the legs in this unit, m.
+    leg_m: f64,
+    /// Misfit of the unit itself: few tools write it.
+    unit_misfit: f64,
+    /// Misfit of unit, leg and cadence.
     misfit: f64,
 }
 
-/// The two likeliest units of a body whose legs are this many units long, the likelier first.
-fn likeliest_units(leg_units: f64, strides_hz: Option<f64>) -> [UnitMisfit; 2] {
+/// All units of a body whose legs are this many units long, the likeliest first.
+fn likeliest_units(leg_units: f64, strides_hz: Option<f64>) -> [UnitMisfit; UNITS.len()] {
     let mut units = UNITS.map(|(unit_m, unit_misfit)| {
         let leg_m = leg_units * unit_m;
         let cadence_misfit = strides_hz.map_or(0.0, |hz| cadence_misfit(leg_m, hz));
-        UnitMisfit { unit_m, misfit: leg_misfit(leg_m) + cadence_misfit + unit_misfit }
+        UnitMisfit { unit_m, leg_m, unit_misfit, misfit: leg_misfit(leg_m) + cadence_misfit + unit_misfit }
     });
     units.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    [units[0], units[1]]
+    units
 }
 
 /// How unlike a person's a leg is.

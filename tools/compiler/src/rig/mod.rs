@@ -44,14 +44,16 @@ pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Rejectio
     found
 }
 
-/// The roles of a bind pose, a clip of one frame, in which names weigh more than shape.
+/// The roles of a bind or rest pose, a clip of one frame, in which names weigh more than shape.
 ///
 /// # Errors
 /// As [`find_roles`].
-pub(crate) fn find_roles_by_name(clip: &SourceClip) -> Result<Roles, RejectionReason> {
+pub(crate) fn find_roles_by_name(clip: &SourceClip, known: &JointMap) -> Result<Roles, RejectionReason> {
     check_size(clip)?;
-    two_bodies::check_is_one_body(clip)?;
-    role_search::search_by_name(clip)
+    if known.iter().all(Option::is_none) {
+        two_bodies::check_is_one_body(clip)?;
+    }
+    role_search::search_by_name(clip, known)
 }
 
 /// Names of the uppermost joints of a pair of legs that a body has beside those of its roles; none of a human body.

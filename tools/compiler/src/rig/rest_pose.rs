@@ -23,6 +23,8 @@ const HEAD_COSINE: f64 = 0.7;
 pub(crate) struct RestPose {
     /// Axis nearest to the direction from ankles to hips; any axis where both coincide.
     pub(crate) up: Axis,
+    /// Whether it is a body that stands on straight legs.
+    pub(crate) stands: bool,
     /// Rotation of an upright head in the frame of the source's head joint; none where the rest pose is no body that
     /// stands.
     pub(crate) head_offset: Option<DQuat>,
@@ -31,7 +33,9 @@ pub(crate) struct RestPose {
 impl RestPose {
     /// What the rest pose of a rig shows.
     pub(crate) fn of(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Self {
-        Self { up: up_axis(rest, roles), head_offset: head_offset(joints, rest, roles) }
+        let stands = stands(rest, roles);
+        let head_offset = if stands { head_offset(joints, rest, roles) } else { None };
+        Self { up: up_axis(rest, roles), stands, head_offset }
     }
 }
 
@@ -40,17 +44,26 @@ fn up_axis(rest: &JointPoses, roles: &Roles) -> Axis {
     Axis::nearest(middle(Joint::THIGHS) - middle(Joint::FEET))
 }
 
-fn head_offset(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Option<DQuat> {
-    let position = |joint: Joint| roles.joints[joint.index()].map(|joint| rest.positions[joint]);
-    let middle = |pair: [Joint; 2]| Some(0.5 * (position(pair[0])? + position(pair[1])?));
-    let [hips, ankles, shoulders] = [middle(Joint::THIGHS)?, middle(Joint::FEET)?, middle(Joint::UPPER_ARMS)?];
+/// Whether trunk and legs are straight, one over the other.
+fn stands(rest: &JointPoses, roles: &Roles) -> bool {
+    let position = |joint: Joint| rest.positions[roles.required(joint)];
+    let middle = |pair: [Joint; 2]| 0.5 * (position(pair[0]) + position(pair[1]));
+    let [hips, ankles, shoulders] = [Joint::THIGHS, Joint::FEET, Joint::UPPER_ARMS].map(middle);
     let up = Axis::nearest(shoulders - ankles).direction();
     let is_upright = |from: DVec3, to: DVec3| (to - from).normalize_or_zero().dot(up) > STRAIGHT_COSINE;
     let is_leg_straight = |side: usize| {
         let [hip, knee, ankle] = [Joint::THIGHS, Joint::SHANKS, Joint::FEET].map(|pair| position(pair[side]));
-        Some(is_upright(knee?, hip?) && is_upright(ankle?, knee?))
+        is_upright(knee, hip) && is_upright(ankle, knee)
     };
-    let stands = is_upright(hips, shoulders) && is_leg_straight(0)? && is_leg_straight(1)?;
+    is_upright(hips, shoulders) && is_leg_straight(0) && is_leg_straight(1)
+}
+
+/// The head's offset in a rest pose that stands.
+fn head_offset(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Option<DQuat> {
+    let position = |joint: Joint| roles.joints[joint.index()].map(|joint| rest.positions[joint]);
+    let middle = |pair: [Joint; 2]| Some(0.5 * (position(pair[0])? + position(pair[1])?));
+    let [ankles, shoulders] = [middle(Joint::FEET)?, middle(Joint::UPPER_ARMS)?];
+    let up = Axis::nearest(shoulders - ankles).direction();
     let across = position(Joint::LeftThigh)? - position(Joint::RightThigh)?;
     let left = across.reject_from_normalized(up).try_normalize()?;
     let forward = left.cross(up);
@@ -61,7 +74,7 @@ fn head_offset(joints: &[SourceJoint], rest: &JointPoses, roles: &Roles) -> Opti
     let is_head_up =
         head_bone(joints, rest, head).unwrap_or(rest.positions[head] - shoulders).normalize_or_zero().dot(up);
     let upright_head = DQuat::from_mat3(&DMat3::from_cols(forward, left, up));
-    let shows_head = stands && faces_forward && is_head_up > HEAD_COSINE;
+    let shows_head = faces_forward && is_head_up > HEAD_COSINE;
     shows_head.then(|| rest.orientations[head].inverse() * upright_head)
 }
 

@@ -4,7 +4,7 @@
 //! toes and knees contradict them; without names, from the direction of the toes. A body is human when its trunk stands
 //! over its legs, unlike a quadruped's.
 
-use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::body::Joint;
 
 use crate::error::{ManifestKey, RejectionReason};
 use crate::read::source_clip::SourceClip;
@@ -36,10 +36,10 @@ pub(crate) fn search(clip: &SourceClip, known: &JointMap) -> Result<Roles, Rejec
 ///
 /// # Errors
 /// As [`crate::rig::find_roles`].
-pub(crate) fn search_by_name(clip: &SourceClip) -> Result<Roles, RejectionReason> {
+pub(crate) fn search_by_name(clip: &SourceClip, known: &JointMap) -> Result<Roles, RejectionReason> {
     let mut rig = SourceRig::new(clip);
     rig.name_weights = NAME_WEIGHTS_WITHOUT_MOTION;
-    search_rig(&rig, &[None; JOINT_COUNT])
+    search_rig(&rig, known)
 }
 
 fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReason> {

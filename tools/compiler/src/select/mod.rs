@@ -4,11 +4,12 @@
 //! out.
 //!
 //! Read in the order of the pipeline: `best_windows`, `clean_cycles` (by `rate_hull`), `named_cycles`, `limited_set`,
-//! `mirror`; `base_walk` chooses m_sp.
+//! `mirror`; `base_walk` chooses m_sp, by `ease` among others.
 
 pub(crate) mod base_walk;
 pub(crate) mod best_windows;
 pub(crate) mod clean_cycles;
+pub(crate) mod ease;
 pub(crate) mod limited_set;
 pub(crate) mod mirror;
 pub(crate) mod named_cycles;

@@ -13,6 +13,7 @@ use crate::error::CompileError;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip};
 use crate::select::base_walk::{BaseWalkCandidate, base_walk};
+use crate::select::ease::{flight_share, unease_mps};
 
 /// Period of standing clips in a set without steps, s.
 const STANDING_PERIOD_S: f64 = 1.0;
@@ -68,7 +69,7 @@ pub(crate) fn named_cycles(
     body: &HumanBody,
 ) -> Result<SelectedCycles, CompileError> {
     let sources = clips.iter().zip(analyzed).map(|(clip, found)| found.record(clip)).collect();
-    let base_walk = base_walk_window(clips, analyzed)?;
+    let base_walk = base_walk_window(clips, analyzed, body)?;
     let base_cycle = base_walk.and_then(|WindowId { clip, window }| analyzed[clip].windows[window].stepping());
     let period_s = base_cycle.map_or(STANDING_PERIOD_S, |cycle| f64::from(cycle.phase_map.period_s));
     let mut cycles = Vec::new();
@@ -112,9 +113,13 @@ pub(crate) fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> b
 ///
 /// # Errors
 /// If the clip that the manifest chose does not step.
-fn base_walk_window(clips: &[HumanClip], analyzed: &[AnalyzedClip]) -> Result<Option<WindowId>, CompileError> {
+fn base_walk_window(
+    clips: &[HumanClip],
+    analyzed: &[AnalyzedClip],
+    body: &HumanBody,
+) -> Result<Option<WindowId>, CompileError> {
     let Some(clip) = clips.iter().position(|clip| clip.choices.is_semi_procedural) else {
-        let (ids, candidates) = base_walk_candidates(clips, analyzed);
+        let (ids, candidates) = base_walk_candidates(clips, analyzed, body);
         return Ok(base_walk(&candidates).map(|index| ids[index]));
     };
     let (chosen, found) = (&clips[clip], &analyzed[clip]);
@@ -139,12 +144,21 @@ struct WindowId {
 }
 
 /// The windows that step, as candidates for m_sp.
-fn base_walk_candidates(clips: &[HumanClip], analyzed: &[AnalyzedClip]) -> (Vec<WindowId>, Vec<BaseWalkCandidate>) {
+fn base_walk_candidates(
+    clips: &[HumanClip],
+    analyzed: &[AnalyzedClip],
+    body: &HumanBody,
+) -> (Vec<WindowId>, Vec<BaseWalkCandidate>) {
     let windows = |(clip, found): (usize, &AnalyzedClip)| {
         let candidate = |(window, steady): (usize, &SteadyCycle)| {
-            let rates = steady.stepping()?.rates;
-            let is_upright = clips[clip].is_upright_in(steady.window_s);
-            let candidate = BaseWalkCandidate { rates, is_upright, is_doubtful: steady.is_doubtful };
+            let cycle = steady.stepping()?;
+            let candidate = BaseWalkCandidate {
+                rates: cycle.rates,
+                is_upright: clips[clip].is_upright_in(steady.window_s),
+                is_doubtful: steady.is_doubtful,
+                flight_share: flight_share(cycle),
+                unease_mps: unease_mps(cycle, body),
+            };
             Some((WindowId { clip, window }, candidate))
         };
         found.windows.iter().enumerate().filter_map(candidate).collect::<Vec<_>>()

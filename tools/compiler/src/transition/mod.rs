@@ -8,6 +8,7 @@
 
 pub(crate) mod example_rows;
 pub(crate) mod joint_state;
+pub(crate) mod only_transitions;
 pub(crate) mod recorded_transition;
 pub(crate) mod root_path;
 pub(crate) mod selection;

@@ -137,6 +137,7 @@ mod tests {
 
     use glam::{DQuat, DVec2, Vec2};
     use motiondb::body::Joint;
+    use motiondb::diagnostic::{Diagnostic, Note};
     use motiondb::motion::{Action, MotionDb};
     use motiondb::validate::first_broken;
 
@@ -225,7 +226,9 @@ mod tests {
         for turned_rad in [FRAC_PI_2, -PI] {
             let root = |time_s: f64| (DVec2::new(0.1, 0.2), 0.5 + turned_rad * ramp(time_s, [0.6, 2.2]));
             let mids_s = [&[0.3, 1.4, 2.6][..], &[0.6, 1.8][..]];
-            check(ActionKind::Turn, steps("turn", 3.0, root, mids_s), root);
+            let db = check(ActionKind::Turn, steps("turn", 3.0, root, mids_s), root);
+            let found = &db.sources.iter().find(|source| source.file == "turn.bvh").unwrap().diagnostics;
+            assert!(matches!(found[..], [Diagnostic::Note(Note::OnlyTransitionsUsed { .. })]), "{found:?}");
         }
     }
 

@@ -121,6 +121,8 @@ pub(crate) struct ExampleReport {
     pub(crate) name: String,
     /// Whether the motion is mirrored.
     pub(crate) mirrored: bool,
+    /// Whether it is the base walk m_sp, which semi-procedural locomotion deforms; never of a lone example.
+    pub(crate) base_walk: bool,
     /// Start and end of the window in the clip, s.
     pub(crate) window_s: [f32; 2],
     /// Mean speed along the facing, m/s; negative backward.
@@ -154,6 +156,7 @@ impl CompileReport {
         self.simplex_count += db.blend_space.simplices().filter(|corners| corners.len() > 1).count();
         self.quality.extend(example_quality::quality(db));
         self.findings.extend(example_quality::lint(db));
+        let base_walk = db.correspondence.as_ref().map(|found| found.semi_procedural as usize);
         let own = |source: u32| style_report::lender(&db.sources[source as usize]).is_none();
         self.actions.extend(
             action_reports(db)
@@ -163,10 +166,11 @@ impl CompileReport {
                 .map(|(report, _)| report),
         );
         for (index, source) in db.sources.iter().enumerate().filter(|(index, _)| own(*index as u32)) {
-            let examples = db.examples.iter().filter(|example| example.source as usize == index);
+            let examples = db.examples.iter().enumerate().filter(|(_, example)| example.source as usize == index);
+            let examples = examples.map(|(index, example)| ExampleReport::new(example, base_walk == Some(index)));
             let actions = db.actions.iter().filter(|action| action.source as usize == index);
             let names = actions.map(|action| action.name.clone()).collect();
-            self.add(source, examples.map(ExampleReport::from).collect(), names, &db.style);
+            self.add(source, examples.collect(), names, &db.style);
         }
     }
 
@@ -212,11 +216,12 @@ impl From<Rejection> for UnusedClip {
     }
 }
 
-impl From<&MotionExample> for ExampleReport {
-    fn from(example: &MotionExample) -> Self {
+impl ExampleReport {
+    fn new(example: &MotionExample, base_walk: bool) -> Self {
         Self {
             name: example.name.clone(),
             mirrored: example.mirrored,
+            base_walk,
             window_s: example.window_s,
             speed_mps: example.parameters.speed_mps,
             turn_rate_rad_s: example.parameters.turn_rate_rad_s,

@@ -1,8 +1,11 @@
 //! What to do after a compilation, the most useful step first.
 
-use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
+use std::collections::BTreeSet;
 
-use crate::report::compile_report::CompileReport;
+use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
+use motiondb_compiler::input::manners_in_names;
+
+use crate::report::compile_report::{CompileReport, ExampleReport};
 use crate::report::plain_text::title;
 
 /// Most clips that one sentence names.
@@ -30,6 +33,14 @@ fn next_steps(report: &CompileReport) -> Vec<String> {
     if report.example_count == 0 {
         next.push("Give clips of steady walking, running, turning or standing.".to_owned());
     }
+    let manners = unstyled_manners(report);
+    if manners.len() > 1 {
+        next.push(format!(
+            "By their names clips may move in several manners ({}); all are blended with one another. To keep them apart, \
+             state a `style` for each in a manifest.toml.",
+            manners.into_iter().collect::<Vec<_>>().join(", ")
+        ));
+    }
     next.extend(report.output.iter().flat_map(|output| with_database(report, output)));
     next
 }
@@ -53,6 +64,13 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
     }
     next.push(format!("Simulate a crowd: fbcrowd simulate SCENARIO.toml --db {output} -o crowd.fbrec"));
     next
+}
+
+/// Manners of moving in the names of the clips that have no style and give examples of gaits.
+fn unstyled_manners(report: &CompileReport) -> BTreeSet<&'static str> {
+    let moves = |example: &ExampleReport| example.speed_mps != 0.0 || example.strafe_mps != 0.0;
+    let blended = report.used.iter().filter(|used| used.style.is_empty() && used.examples.iter().any(moves));
+    manners_in_names(blended.map(|used| used.file.as_str()))
 }
 
 /// Clips with a gait that is too fast or too slow for a human.

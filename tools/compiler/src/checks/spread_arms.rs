@@ -1,0 +1,69 @@
+//! Parts of a clip in which the body stands with its arms spread, as in a bind pose: a T-pose or an A-pose between two parts
+//! of an idle, for instance. They give no example. Clips are in metres, z up.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use motiondb::body::Joint;
+
+use crate::frame_runs::frame_runs;
+use crate::read::source_clip::SourceClip;
+use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
+use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
+use crate::rig::roles::{ARMS, Roles};
+
+/// Least angle at which both straight arms point away from the trunk in a bind pose, degrees.
+pub(crate) const ARMS_OUT_DEG: f64 = 30.0;
+/// Greatest flexion of the elbow of a straight arm, degrees.
+const STRAIGHT_DEG: f64 = 25.0;
+/// Greatest speed of the hips of a body that stands, m/s for a person's leg. Styles spread their arms while they walk.
+const STANDING_MPS: f64 = 0.15;
+/// Half of the span over which that speed is measured, s.
+const HALF_SPAN_S: f64 = 0.25;
+/// Duration before and after a bind pose in which the arms rise and fall, s.
+const MARGIN_S: f64 = 0.4;
+/// Greatest share of a clip that such parts have; a clip that is little else is a bind pose as a whole.
+const SHARE_MAX: f64 = 0.8;
+
+/// The parts of a clip in which the body stands with its arms spread, in order of time.
+pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles) -> Vec<Range<usize>> {
+    let count = clip.frame_count();
+    let frames_of = |duration_s: f64| ((duration_s * clip.frame_rate_hz) as usize).max(1);
+    let (half, margin) = (frames_of(HALF_SPAN_S), frames_of(MARGIN_S));
+    let hips = |frame: usize| middle(clip, roles, Joint::THIGHS, frame).truncate();
+    let scale = leg_length(clip, roles) / HUMAN_LEG_M;
+    let stands = |frame: usize| {
+        let (before, after) = (frame.saturating_sub(half), (frame + half).min(count - 1));
+        let most_m = STANDING_MPS * scale.sqrt() * (after - before) as f64 / clip.frame_rate_hz;
+        hips(before).distance(hips(after)) <= most_m
+    };
+    let is_spread = |frame: usize| {
+        let position = |joint: Joint| clip.position(frame, roles.required(joint));
+        arms_out_deg(position) > ARMS_OUT_DEG || arm_spread(position) > SPREAD_COSINE
+    };
+    let mut flags = vec![false; count];
+    for frame in (0..count).filter(|&frame| is_spread(frame) && stands(frame)) {
+        flags[frame.saturating_sub(margin)..(frame + margin + 1).min(count)].fill(true);
+    }
+    let share = flags.iter().filter(|flag| **flag).count() as f64 / count as f64;
+    if share > SHARE_MAX { Vec::new() } else { frame_runs(&flags, true) }
+}
+
+/// Angle off straight down of straight arms that point aside, the lesser of both, degrees; 0 for other arms.
+pub(crate) fn arms_out_deg(position: impl Fn(Joint) -> DVec3) -> f64 {
+    let [left, right] = ARMS.map(|[shoulder, _, _]| position(shoulder));
+    let to_left = (left - right).with_z(0.0).normalize_or_zero();
+    let out_deg = |[shoulder, elbow, wrist]: [Joint; 3], outward: DVec3| {
+        let [upper, fore] = [[shoulder, elbow], [elbow, wrist]].map(|[from, to]| position(to) - position(from));
+        let arm = upper + fore;
+        let (aside, ahead) = (arm.dot(outward), arm.dot(DVec3::Z.cross(outward)));
+        let is_straight = angle_deg(upper, fore) < STRAIGHT_DEG && ahead.abs() < aside;
+        if is_straight { libm::atan2(aside, -arm.z).to_degrees().max(0.0) } else { 0.0 }
+    };
+    out_deg(ARMS[0], to_left).min(out_deg(ARMS[1], -to_left))
+}
+
+/// Angle between two vectors, degrees.
+pub(crate) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
+    libm::acos(a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0)).to_degrees()
+}
