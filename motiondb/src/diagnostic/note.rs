@@ -137,12 +137,12 @@ pub enum Note {
     },
     /// The clip gives transitions, and no example, since it shows no steady gait.
     OnlyTransitionsUsed {
-        /// What it lacks for an example.
+        /// Why no example is made.
         reason: Unfit,
     },
-    /// In parts of the clip the body stands otherwise than at ease. They give no example and no idle.
+    /// In parts of the clip the body stands in a bind pose or with raised arms. They give no example and no idle.
     RestsLeftOut {
-        /// First and last second of the longest.
+        /// First and last second of the longest part.
         longest_s: [f32; 2],
         /// Reason why the longest is left out.
         reason: Unfit,
@@ -226,15 +226,15 @@ impl fmt::Display for Note {
                 write!(out, "only the part that stands is used; of the part that steps: {reason}")
             }
             Self::OnlyTransitionsUsed { reason } => {
-                write!(out, "only its transitions are used; as an example of a gait: {reason}")
+                write!(out, "the clip gives transitions, but no example of a gait: {reason}")
             }
             Self::RestsLeftOut { longest_s: [first_s, last_s], reason, more } => {
                 let more = match more {
                     0 => String::new(),
-                    1 => ", nor does 1 further part".to_owned(),
-                    _ => format!(", nor do {more} further parts"),
+                    1 => " (1 further part is left out, too)".to_owned(),
+                    _ => format!(" ({more} further parts are left out, too)"),
                 };
-                write!(out, "the part from {first_s:.1} s to {last_s:.1} s gives no idle{more}: {reason}")
+                write!(out, "no idle is made from {first_s:.1} s to {last_s:.1} s{more}: {reason}")
             }
             Self::SameTake { other, mirrored, windows_left_out } => {
                 write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))

@@ -173,12 +173,10 @@ impl fmt::Display for Unfit {
                 "steps of {step_cm:.0} cm, {steps_per_min:.0} a minute, are not a human gait; state the right \
                  `frame_rate_hz` in a manifest.toml"
             ),
-            Self::NoStep => {
-                out.write_str(
-                "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait, at least a stride \
-                 and a half (1.5 to 2 s of a walk)",
-            )
-            }
+            Self::NoStep => out.write_str(
+                "no foot was found that both lands and leaves the ground, and the body does not stand; use a clip of a \
+                 steady gait, at least a stride and a half (1.5 to 2 s of a walk)",
+            ),
             Self::NoWholeStride => {
                 out.write_str("no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first")
             }
@@ -247,7 +245,7 @@ impl fmt::Display for Unfit {
                 walks.join(" or ")
             ),
             Self::MovesLengthwise => out.write_str(
-                "the body moves along its own length, as one that jumps, kneels down and rises, climbs or crawls; use a \
+                "the body moves along its own length, as in a jump, a climb or a crawl, or in kneeling down and rising; use a \
                  clip of walking or standing",
             ),
             Self::StridesUneven { speeds_mps, turn_rates_rad_s } => {

@@ -100,8 +100,8 @@ pub enum Warning {
         /// Number of clips that are compared; these are the longest.
         compared: u32,
     },
-    /// Another unit may be the right one: it is nearly as likely, or more usual than the one used, or that of the clip seen
-    /// alone. If the unit is wrong, so are all speeds.
+    /// Another unit may be the right one: it is nearly as likely, is more common, or fits this clip better than the unit of
+    /// its rig. If the unit is wrong, so are all speeds.
     UnitDoubtful {
         /// Length of thigh plus shank in the unit used, m.
         leg_m: f32,
@@ -145,7 +145,7 @@ pub enum Warning {
     },
     /// All frames hold the same pose.
     PoseFrozen,
-    /// The steps are those of a walk played too fast. If the frame time is wrong, so are all speeds.
+    /// The steps are those of motion played too fast. If the frame time is wrong, so are all speeds.
     QuickMotion {
         /// Median length of a step, cm.
         step_cm: f32,
@@ -211,7 +211,7 @@ impl fmt::Display for Warning {
             ),
             Self::QuickMotion { step_cm, steps_per_min, frame_rate_hz } => write!(
                 out,
-                "steps of only {step_cm:.0} cm, {steps_per_min:.0} a minute, look like a walk played too fast; if the clip \
+                "steps of only {step_cm:.0} cm, {steps_per_min:.0} a minute, look like motion played too fast; if the clip \
                  was recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
             ),
             Self::SidesExchanged => out.write_str(

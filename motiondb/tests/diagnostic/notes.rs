@@ -99,17 +99,16 @@ pub(crate) fn notes() -> Vec<(Note, &'static str)> {
         ),
         (
             Note::RestsLeftOut { longest_s: [4.0, 6.04], reason: Unfit::TPose, more: 0 },
-            "the part from 4.0 s to 6.0 s gives no idle: the body stands in a T-pose; use a clip of a body that stands at \
-             ease",
+            "no idle is made from 4.0 s to 6.0 s: the body stands in a T-pose; use a clip of a body that stands at ease",
         ),
         (
             Note::RestsLeftOut { longest_s: [4.0, 6.04], reason: Unfit::TPose, more: 1 },
-            "the part from 4.0 s to 6.0 s gives no idle, nor does 1 further part: the body stands in a T-pose; use a clip \
+            "no idle is made from 4.0 s to 6.0 s (1 further part is left out, too): the body stands in a T-pose; use a clip \
              of a body that stands at ease",
         ),
         (
             Note::OnlyTransitionsUsed { reason: Unfit::NoWholeStride },
-            "only its transitions are used; as an example of a gait: no whole stride, a step of each foot, was found; use at \
+            "the clip gives transitions, but no example of a gait: no whole stride, a step of each foot, was found; use at \
              least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first",
         ),
         (

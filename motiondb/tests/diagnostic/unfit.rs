@@ -19,8 +19,8 @@ pub(crate) fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (
             Unfit::NoStep,
-            "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait, at least a stride and \
-             a half (1.5 to 2 s of a walk)",
+            "no foot was found that both lands and leaves the ground, and the body does not stand; use a clip of a steady \
+             gait, at least a stride and a half (1.5 to 2 s of a walk)",
         ),
         (
             Unfit::NoWholeStride,
@@ -98,7 +98,7 @@ pub(crate) fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (
             Unfit::MovesLengthwise,
-            "the body moves along its own length, as one that jumps, kneels down and rises, climbs or crawls; use a clip \
+            "the body moves along its own length, as in a jump, a climb or a crawl, or in kneeling down and rising; use a clip \
              of walking or standing",
         ),
         (

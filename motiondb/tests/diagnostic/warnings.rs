@@ -128,7 +128,7 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::QuickMotion { step_cm: 41.2, steps_per_min: 219.6, frame_rate_hz: 120.0 },
-            "steps of only 41 cm, 220 a minute, look like a walk played too fast; if the clip was recorded at another rate \
+            "steps of only 41 cm, 220 a minute, look like motion played too fast; if the clip was recorded at another rate \
              than 120 Hz, state `frame_rate_hz` in a manifest.toml",
         ),
         (

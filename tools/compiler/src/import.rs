@@ -237,7 +237,7 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
     let is_up_known = contradicted_up.is_none();
     let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
-    let spread_parts = spread_arms::spread_parts(&clip, &roles);
+    let spread_parts = spread_arms::spread_parts(&clip, &roles, &parameters);
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
     human.spread_parts = spread_parts;
     if let Some(head) = &mut human.rig_head {
@@ -285,7 +285,7 @@ fn clip_with_roles(
     Ok((clip, roles, rest))
 }
 
-/// The roles of the joints by a few frames; by the rest pose of a body that stands, where it crawls or bends down in these.
+/// The roles of the joints by a few frames. If the body is not upright in these, by the rest pose, if that one stands.
 fn roles_in(sample: &SourceClip, rest: &JointPoses, known: &JointMap) -> Result<Roles, RejectionReason> {
     let found = rig::find_roles(sample, known);
     if !matches!(found, Err(RejectionReason::NotUpright { .. })) {

@@ -13,7 +13,7 @@ use motiondb_compiler::{
 use crate::clip_paths::{check_output, manifest};
 use crate::error::JobError;
 use crate::observer::{JobEvent, Observer, Work};
-use crate::output_path::is_of_path;
+use crate::output_path::is_wrong_path;
 
 /// Options that override those of a manifest.
 #[derive(Default)]
@@ -63,7 +63,10 @@ pub fn compile(
 
 /// Opens the cache in a folder.
 fn open_cache(folder: &Path) -> Result<Cache, JobError> {
-    Cache::open(folder).map_err(|error| match is_of_path(&error) {
+    Cache::open(folder).map_err(|error| match is_wrong_path(&error) {
+        true if folder.is_file() => {
+            JobError::UnfitCache { folder: folder.to_owned(), fault: "it is a file".to_owned() }
+        }
         true => JobError::UnfitCache { folder: folder.to_owned(), fault: error.to_string() },
         false => JobError::Unwritable { path: folder.to_owned(), source: error },
     })

@@ -67,12 +67,12 @@ pub enum JobError {
         /// What is there.
         fault: String,
     },
-    /// The folder of a cache names something that is no folder.
-    #[error("{} cannot be used as a cache: {fault}; name another folder", folder.display())]
+    /// The path of a cache cannot be a folder.
+    #[error("{} cannot be the folder of a cache: {fault}; name another folder", folder.display())]
     UnfitCache {
-        /// Path of the folder.
+        /// Path of the cache.
         folder: PathBuf,
-        /// What is there.
+        /// Why the path cannot be a folder.
         fault: String,
     },
     /// Two outputs of one command would be written to the same file.

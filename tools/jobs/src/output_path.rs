@@ -74,17 +74,17 @@ fn check_file_of_folder(output: &Path, inputs: &[PathBuf]) -> Result<(), JobErro
 
 /// An output path is wrong, or the system does not allow to write there.
 fn unfit(output: &Path, error: io::Error) -> JobError {
-    match is_of_path(&error) {
+    match is_wrong_path(&error) {
         true => JobError::UnfitOutput { output: output.to_owned(), fault: error.to_string() },
         false => JobError::unwritable(output, error),
     }
 }
 
-/// Whether an error says that a path is wrong; else the system fails to write there.
-pub(crate) fn is_of_path(error: &io::Error) -> bool {
+/// Whether an I/O error means a wrong path, not a failure of the system.
+pub(crate) fn is_wrong_path(error: &io::Error) -> bool {
     use ErrorKind::{AlreadyExists, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound};
 
-    // A folder exists already where a file is in its place.
+    // `create_dir_all` returns `AlreadyExists` where a file has the path of the folder.
     matches!(error.kind(), AlreadyExists | InvalidFilename | InvalidInput | IsADirectory | NotADirectory | NotFound)
 }
 

@@ -16,7 +16,7 @@ const LENGTHWISE_MAX: f64 = 0.8;
 /// Least standard deviation of the hips' position, divided by the leg length, of a body that travels: a straight path
 /// of two legs' length. Jumps, and bodies that kneel and rise, reach 0.5.
 const TRAVEL_MIN: f64 = 0.6;
-/// The same of a body that crawls: a path of one leg's length. Its rest pose stands along another axis than it moves.
+/// The same of a body that crawls: a path of one leg's length.
 const CRAWL_TRAVEL_MIN: f64 = 0.3;
 
 /// The verdict that the body's path lies along its own length.
@@ -25,13 +25,13 @@ pub(crate) fn lengthwise_path(clip: &SourceClip, roles: &Roles) -> Option<Unfit>
     (travel > TRAVEL_MIN && along > LENGTHWISE_MAX).then_some(Unfit::MovesLengthwise)
 }
 
-/// Whether the body crawls: it moves along its length, and that is not the axis along which its rest pose stands.
+/// Whether the body crawls: it moves along its length, and its rest pose stands along another axis.
 pub(crate) fn crawls(clip: &SourceClip, roles: &Roles, rest_up: Axis) -> bool {
     let [travel, along] = travel(clip, roles);
     travel > CRAWL_TRAVEL_MIN && along > LENGTHWISE_MAX && found_up(clip, roles) != rest_up
 }
 
-/// Standard deviation of the hips' position, leg lengths, and its share along the line from feet to shoulders.
+/// `[standard deviation of the hips' position in leg lengths, its share along the line from feet to shoulders]`.
 fn travel(clip: &SourceClip, roles: &Roles) -> [f64; 2] {
     let count = clip.frame_count() as f64;
     let mean = |value: &dyn Fn(usize) -> DVec3| (0..clip.frame_count()).map(value).sum::<DVec3>() / count;

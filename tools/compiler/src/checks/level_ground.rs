@@ -152,7 +152,7 @@ impl GroundCheck<'_> {
         Some(self.radians().unwrap_or(skating))
     }
 
-    /// Legs that take no step and hardly turn, but not much less than the rest of the body.
+    /// Legs that take no step and hardly turn, but at least half as much as the rest of the body.
     fn radians(&self) -> Option<Warning> {
         if !self.steps.is_empty() {
             return None;
@@ -165,7 +165,7 @@ impl GroundCheck<'_> {
         is_likely.then_some(Warning::RadiansLikely { turned_rad: turned_rad as f32 })
     }
 
-    /// The same in a clip in place: the legs would step, too, if their angles were radians.
+    /// The same in a clip in place. In addition the legs would step if their angles were radians.
     fn radians_in_place(&self) -> Option<Warning> {
         let found = self.radians()?;
         let lead = LEAD_MIN_M * self.scale * 1.0_f64.to_radians();

@@ -31,13 +31,13 @@ const SLOW_RUN_CM_MIN: f64 = 0.85;
 /// Cadence below which such a gait is slow motion, steps/min, for a person's leg. Development set: dashes from 126 on;
 /// brisk walks and runs at half their speed up to 84.
 const SLOW_RUN_PER_MIN: f64 = 105.0;
-/// Turn a step from which short steps are no sign of a wrong frame time, rad: 30°.
+/// Turn per step above which short steps are no sign of a wrong frame time, rad: 30°.
 const TURN_OF_STEP_RAD: f64 = std::f64::consts::FRAC_PI_6;
 /// Walk ratio below which a gait of a high cadence looks like quick motion, cm/(step/min), for a person's leg: twice the
 /// frame rate halves the ratio. Walks at twice their speed: 0.27 to 0.42.
 const QUICK_MOTION_CM_MIN: f64 = 0.42;
-/// Cadence, steps/min for a person's leg, above which a walk of such a ratio, and another gait of it, looks like quick
-/// motion. Development set, such ratios: a walk of 158, a run of 175.
+/// Cadences above which a gait of such a ratio is quick motion, `[walk, other gait]`, steps/min, for a person's leg. Greatest
+/// in the development set: 158 and 175.
 const QUICK_PER_MIN: [f64; 2] = [165.0, 190.0];
 /// Greatest cadence, steps/min, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
@@ -46,7 +46,7 @@ const WALK_CADENCE_MAX_PER_MIN: f64 = 215.0;
 /// Share of the time above which the ball of a foot stands as in a walk: 0.48 of the cycle in walks (Perry), 0.4 in
 /// jogs.
 const WALK_PLANTED_SHARE: f64 = 0.45;
-/// Leg length, divided by a person's, above which quick motion is not judged: drawn giants step as quickly as people.
+/// Leg length, divided by a person's, above which quick motion is not judged: animated giants may have a human cadence.
 const GIANT_SCALE: f64 = 1.5;
 /// Least length of steps that are judged, m for a person's leg.
 const STEP_MIN_M: f64 = 0.2;
@@ -124,10 +124,12 @@ pub(crate) fn doubtful_gait(clip: &SourceClip, roles: &Roles, parameters: &Sourc
     let (walks, walk_ratio) = (walks(clip, roles, parameters), human_step_cm / human_cadence);
     let cadence_max = if walks { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };
     let [step_cm, steps_per_min] = [100.0 * step_m, 60.0 / step_s].map(|figure| figure as f32);
+    // Steps of a tight turn are short.
     let turns = parameters.turn_rate_rad_s.abs() * step_s > TURN_OF_STEP_RAD;
-    if human_step_cm < 100.0 * STEP_MIN_M || turns && walk_ratio < *WALK_RATIO_CM_MIN.start() {
+    let least_ratio = if turns { 0.0 } else { *WALK_RATIO_CM_MIN.start() };
+    if human_step_cm < 100.0 * STEP_MIN_M {
         None
-    } else if human_cadence >= cadence_max || !WALK_RATIO_CM_MIN.contains(&walk_ratio) {
+    } else if human_cadence >= cadence_max || walk_ratio < least_ratio || walk_ratio > *WALK_RATIO_CM_MIN.end() {
         Some(Diagnostic::NoExample(Unfit::InhumanGait { step_cm, steps_per_min }))
     } else {
         let frame_rate_hz = clip.frame_rate_hz as f32;
@@ -136,8 +138,8 @@ pub(crate) fn doubtful_gait(clip: &SourceClip, roles: &Roles, parameters: &Sourc
             true => walk_ratio > SLOW_MOTION_CM_MIN,
             false => walk_ratio > SLOW_RUN_CM_MIN && human_cadence < SLOW_RUN_PER_MIN,
         };
-        // A drawn giant may step as quickly as a person.
-        let is_quick = walk_ratio < QUICK_MOTION_CM_MIN && human_cadence > quick_per_min && scale < GIANT_SCALE;
+        let is_short = walk_ratio < QUICK_MOTION_CM_MIN && !turns;
+        let is_quick = is_short && human_cadence > quick_per_min && scale < GIANT_SCALE;
         let slow = is_slow.then_some(Warning::FrameTimeDoubtful { step_cm, steps_per_min, frame_rate_hz });
         let quick = is_quick.then_some(Warning::QuickMotion { step_cm, steps_per_min, frame_rate_hz });
         slow.or(quick).map(Diagnostic::Warning)

@@ -8,12 +8,15 @@ use motiondb::body::Joint;
 
 use crate::frame_runs::frame_runs;
 use crate::read::source_clip::SourceClip;
+use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
 use crate::rig::roles::{ARMS, Roles};
 
-/// Least angle at which both straight arms point away from the trunk in a bind pose, degrees.
+/// Least angle of both straight arms off straight down in a bind pose, degrees.
 pub(crate) const ARMS_OUT_DEG: f64 = 30.0;
+/// Angle from straight down above which both arms count as raised, not spread, degrees.
+pub(crate) const ARMS_UP_DEG: f64 = 120.0;
 /// Greatest flexion of the elbow of a straight arm, degrees.
 const STRAIGHT_DEG: f64 = 25.0;
 /// Greatest speed of the hips of a body that stands, m/s for a person's leg. Styles spread their arms while they walk.
@@ -22,11 +25,15 @@ const STANDING_MPS: f64 = 0.15;
 const HALF_SPAN_S: f64 = 0.25;
 /// Duration before and after a bind pose in which the arms rise and fall, s.
 const MARGIN_S: f64 = 0.4;
-/// Greatest share of a clip that such parts have; a clip that is little else is a bind pose as a whole.
+/// Greatest share of such parts in a clip; above it the whole clip is a bind pose, and no part is left out.
 const SHARE_MAX: f64 = 0.8;
 
-/// The parts of a clip in which the body stands with its arms spread, in order of time.
-pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles) -> Vec<Range<usize>> {
+/// The parts of a clip in which the body stands with its arms spread, in order of time. A clip in place, whose hips rest
+/// while it walks, has none.
+pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Vec<Range<usize>> {
+    if parameters.is_in_place {
+        return Vec::new();
+    }
     let count = clip.frame_count();
     let frames_of = |duration_s: f64| ((duration_s * clip.frame_rate_hz) as usize).max(1);
     let (half, margin) = (frames_of(HALF_SPAN_S), frames_of(MARGIN_S));
@@ -34,12 +41,12 @@ pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles) -> Vec<Range<usize>
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let stands = |frame: usize| {
         let (before, after) = (frame.saturating_sub(half), (frame + half).min(count - 1));
-        let most_m = STANDING_MPS * scale.sqrt() * (after - before) as f64 / clip.frame_rate_hz;
-        hips(before).distance(hips(after)) <= most_m
+        let path_max_m = STANDING_MPS * scale.sqrt() * (after - before) as f64 / clip.frame_rate_hz;
+        hips(before).distance(hips(after)) <= path_max_m
     };
     let is_spread = |frame: usize| {
         let position = |joint: Joint| clip.position(frame, roles.required(joint));
-        arms_out_deg(position) > ARMS_OUT_DEG || arm_spread(position) > SPREAD_COSINE
+        (ARMS_OUT_DEG..ARMS_UP_DEG).contains(&arms_out_deg(position)) || arm_spread(position) > SPREAD_COSINE
     };
     let mut flags = vec![false; count];
     for frame in (0..count).filter(|&frame| is_spread(frame) && stands(frame)) {
@@ -49,7 +56,7 @@ pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles) -> Vec<Range<usize>
     if share > SHARE_MAX { Vec::new() } else { frame_runs(&flags, true) }
 }
 
-/// Angle off straight down of straight arms that point aside, the lesser of both, degrees; 0 for other arms.
+/// The lesser angle of the two arms from straight down, degrees; 0 unless both are straight and point aside.
 pub(crate) fn arms_out_deg(position: impl Fn(Joint) -> DVec3) -> f64 {
     let [left, right] = ARMS.map(|[shoulder, _, _]| position(shoulder));
     let to_left = (left - right).with_z(0.0).normalize_or_zero();

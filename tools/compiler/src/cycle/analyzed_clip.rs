@@ -84,7 +84,7 @@ impl AnalyzedClip {
                     match on_body.steady_cycle(&performer.gait.stances[window.reading], &window) {
                         Ok(steady) => windows.push(steady),
                         Err(unfit) => {
-                            doubtful += usize::from(!matches!(unfit, Unfit::TPose | Unfit::ArmsOut | Unfit::ArmRaised));
+                            doubtful += usize::from(!is_of_arms(&unfit));
                             reasons.push(unfit);
                         }
                     }
@@ -108,19 +108,12 @@ impl AnalyzedClip {
         let rests_left_out = times.rests_note(clip, &rests, &grounded, body).map(Diagnostic::Note);
         if windows.is_empty() {
             let reason = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect::<Vec<_>>();
-            let tells_parts = matches!(
-                reason[..],
-                [Diagnostic::NoExample(
-                    Unfit::NotUpright { .. }
-                        | Unfit::TPose
-                        | Unfit::ArmsOut
-                        | Unfit::ArmRaised
-                        | Unfit::StatedTransition
-                )]
-            );
-            // Of a clip that import rejects as a whole no part is known.
-            let are_noted = clip.unfit.is_none() && !tells_parts;
-            let parts = low_parts.into_iter().chain(rests_left_out).filter(|_| are_noted);
+            // The parts of a clip that import rejects, or of which a transition is stated, are not reported.
+            let are_known = clip.unfit.is_none() && clip.choices.transition.is_none();
+            let is = |unfit: fn(&Unfit) -> bool| matches!(&reason[..], [Diagnostic::NoExample(found)] if unfit(found));
+            let low_parts = low_parts.filter(|_| are_known && !is(|found| matches!(found, Unfit::NotUpright { .. })));
+            let rests_left_out = rests_left_out.filter(|_| are_known && !is(is_of_arms));
+            let parts = low_parts.into_iter().chain(rests_left_out);
             let diagnostics = reason.into_iter().chain(parts).collect();
             let left_out = LeftOutWindows::default();
             return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
@@ -230,6 +223,11 @@ fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip
     let is_stated = |movement: &Movement| stated.is_none_or(|kind| MovementKind::of(kind) == movement.kind);
     found.retain(|movement| is_stated(movement) && !is_left_out(movement));
     found
+}
+
+/// Whether a rest is left out because of how the body holds its arms.
+fn is_of_arms(unfit: &Unfit) -> bool {
+    matches!(unfit, Unfit::TPose | Unfit::ArmsOut | Unfit::ArmRaised)
 }
 
 /// The reason that the body is not upright for most of a clip, if it is so.
@@ -347,7 +345,7 @@ struct ClipOnBody<'a> {
 }
 
 impl ClipOnBody<'_> {
-    /// The cycle of the longest rest in which the body stands at ease; else why the longest of all is unfit.
+    /// The cycle of the longest rest in which the body stands at ease; or the reason why the longest of all is unfit.
     fn standing_cycle(&self, longest: &Range<usize>) -> Result<SteadyCycle, Unfit> {
         let cycle = |rest: &Range<usize>| {
             let window_s = self.times.of_rest_s(rest, self.grounded);

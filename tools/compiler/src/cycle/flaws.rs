@@ -18,7 +18,7 @@ use crate::retarget::human_clip::HumanClip;
 const REST_S: f64 = 1.0;
 /// Greatest lean of the trunk of a rest without flaw, degrees.
 const UPRIGHT_LEAN_DEG: f64 = 15.0;
-/// Lean beyond that of a trunk that could hardly be more bent, degrees: 45° in all are left out as a bow.
+/// Lean beyond [`UPRIGHT_LEAN_DEG`] that counts as one flaw, degrees.
 const BENT_LEAN_DEG: f64 = 30.0;
 /// Parts of the names of clips that show a body at ease.
 const STANDING_NAMES: [&str; 6] = ["idle", "stand", "breath", "rest", "wait", "neutral"];

@@ -10,7 +10,7 @@ use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
-use crate::checks::spread_arms::{ARMS_OUT_DEG, angle_deg, arms_out_deg};
+use crate::checks::spread_arms::{ARMS_OUT_DEG, ARMS_UP_DEG, angle_deg, arms_out_deg};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
@@ -18,10 +18,8 @@ use crate::rig::roles::ARMS;
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
-/// Least angle of the higher arm off straight down in a raised one, degrees: folded arms have up to 67, an aimed gun 90.
+/// Angle from straight down above which the higher arm counts as raised, degrees: folded arms have up to 67, an aimed gun 90.
 const ARM_RAISED_DEG: f64 = 75.0;
-/// Least angle of both arms off straight down in arms that are raised, not spread, degrees.
-const ARMS_UP_DEG: f64 = 120.0;
 
 /// Figures of a rest, means over its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,8 +13,8 @@ use crate::database::rows::rows;
 use crate::database::skeleton::skeleton;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanBody;
-use crate::select::ease::unease_mps;
 use crate::select::named_cycles::{NamedCycle, SelectedCycles};
+use crate::select::posture_penalty::posture_penalty_mps;
 
 /// The database of cycles sorted by name; it may still be invalid.
 ///
@@ -35,7 +35,7 @@ pub(crate) fn assemble(
     let examples: Vec<MotionExample> = cycles.iter().map(|named| motion_example(named, body)).collect();
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
     observer(CompileEvent::Stage("blend space"));
-    let flaws: Vec<f64> = cycles.iter().map(|named| flaws_beside_others(named, body)).collect();
+    let flaws: Vec<f64> = cycles.iter().map(|named| coincident_rank(named, body)).collect();
     let blend_space = blend_space_of_best(&parameters, &flaws);
     note_coincident(&coincident_pairs(&parameters, &blend_space), &cycles, body, &mut sources);
     observer(CompileEvent::Stage("assembly"));
@@ -59,11 +59,10 @@ pub(crate) fn assemble(
     db
 }
 
-/// Flaws of a cycle where others have its parameters: those of its window, and how little the body is at ease. m_sp has
-/// none, so that it is blended itself.
-fn flaws_beside_others(named: &NamedCycle, body: &HumanBody) -> f64 {
+/// Flaws that rank examples with equal parameters: those of the window, plus the posture penalty. m_sp ranks first.
+fn coincident_rank(named: &NamedCycle, body: &HumanBody) -> f64 {
     if named.choices.is_semi_procedural && !named.mirrored {
         return f64::NEG_INFINITY;
     }
-    named.flaws + unease_mps(&named.cycle, body)
+    named.flaws + posture_penalty_mps(&named.cycle, body)
 }

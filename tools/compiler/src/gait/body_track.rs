@@ -24,7 +24,7 @@ pub(crate) struct BodyTrack<'a> {
     pub(crate) hips_m: Vec<DVec2>,
     /// Facing at each frame, without jumps of 2π, rad.
     pub(crate) facing_rad: Vec<f64>,
-    /// Ankles on the ground at each frame, `[left, right]`, m.
+    /// Horizontal positions of the ankles at each frame, `[left, right]`, m.
     pub(crate) ankles_m: Vec<[DVec2; 2]>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> BodyTrack<'a> {
         first.distance(last) * self.frame_rate_hz / self.hips_m.len() as f64
     }
 
-    /// Greatest distance of an ankle on the ground, in some frames, from where it is in the first, m.
+    /// Greatest horizontal distance of an ankle, within some frames, from its position in the first, m.
     pub(crate) fn ankles_travel_m(&self, frames: Range<usize>) -> f64 {
         let first_m = self.ankles_m[frames.start];
         let travel_m =

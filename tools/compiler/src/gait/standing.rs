@@ -1,4 +1,4 @@
-//! Where in a clip the body stands: both feet planted, hips and joints at rest.
+//! Where in a clip the body stands: both feet planted, hips, ankles and joints at rest.
 //!
 //! Times in frames of the clip; world frame, metres, seconds.
 
@@ -11,8 +11,7 @@ use crate::gait::body_track::BodyTrack;
 const STANDING_SPEED_MPS: f64 = 0.06;
 /// Mean speed of the joints below which a body stands, m/s: breathing and weight shifts have 0.003–0.02, dances more.
 pub(crate) const STANDING_JOINT_SPEED_MPS: f64 = 0.06;
-/// Greatest distance of an ankle of a body that stands from where it was, m. Captured idles: up to 0.04; a body on a turntable
-/// passes it at 50°.
+/// Greatest horizontal travel of an ankle in a rest, m. Captured idles: up to 0.04; on a turntable it is passed at 50°.
 const ANKLES_TRAVEL_MAX_M: f64 = 0.1;
 /// Share of its frames for which each foot of a clip that stands as a whole is planted.
 const STANDING_SHARE_MIN: f64 = 0.95;

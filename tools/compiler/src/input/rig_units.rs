@@ -1,8 +1,10 @@
-//! One unit for each rig of a set. BVH files state none, and two clips of one rig, whose cadences differ, may seem to have
-//! two. The unit of all is the one that a manifest states for a clip of the rig; else that of most clips, of equal numbers
-//! the first in [`UNITS`]. Clips with a wrong frame time show no unit.
+//! One unit for each rig of a set. BVH files state none, and two clips of one rig may seem to have two units: a stroll in feet
+//! seems to be in metres, a run in decimetres. The unit of a rig is
+//! 1. the one that a manifest states for one of its clips; of several the first;
+//! 2. the most frequent one; clips with a wrong frame time show no unit;
+//! 3. on a tie the first in [`UNITS`].
 //!
-//! Rigs are alike by the names of their joints and the lengths of their bones.
+//! Two rigs are the same if the names of their joints and the lengths of their bones agree.
 
 use std::collections::BTreeMap;
 
@@ -41,8 +43,8 @@ impl RigUnit {
     }
 }
 
-/// Imports the BVH clips again that seem to have another unit than their rig, in that of the rig. Where no manifest states
-/// it, they get a warning.
+/// Imports again, in the rig's unit, each BVH clip that was found in another unit. Where no manifest states the rig's unit,
+/// the clip gets a warning.
 pub(crate) fn unify_units(
     clips: &[ClipSettings],
     imports: &mut [Result<Vec<ImportedClip>, Rejection>],

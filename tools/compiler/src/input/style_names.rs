@@ -101,7 +101,7 @@ const MANNERS: [&str; 75] = [
     "youthful",
     "zombie",
 ];
-/// Words for who moves: folders of these names hold no style.
+/// Words for people: folders of these names hold no style.
 const PEOPLE: [&str; 23] = [
     "actor",
     "actors",
@@ -228,7 +228,7 @@ fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
     codes.into_keys().collect()
 }
 
-/// Words for known manners of moving in the names of files, in alphabetical order.
+/// Known manners of one word in the names of files, in alphabetical order.
 pub fn manners_in_names<'a>(names: impl IntoIterator<Item = &'a str>) -> BTreeSet<&'static str> {
     let words: BTreeSet<String> = names
         .into_iter()
@@ -252,8 +252,8 @@ struct StyleFolder {
 }
 
 impl StyleFolder {
-    /// A folder by its name: a known manner beside numbers and words for movements, or other words. None where a word says
-    /// who moves.
+    /// A folder by its name: a known manner beside numbers and words for movements, or other words. `None` if the name holds
+    /// a word for people, or is neither a manner nor a word.
     fn named(name: &str) -> Option<Self> {
         let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
         if name.split(is_joint).any(|word| PEOPLE.contains(&word)) {

@@ -34,7 +34,7 @@ const RUNNING_MPS: f64 = 2.2;
 const LEAN_MAX_DEG: f64 = 50.0;
 /// The same of a body that stands. A deeper lean is a bow, or a reach for the ground. Idles of the development set: up to 24.
 const STANDING_LEAN_MAX_DEG: f64 = 40.0;
-/// Speed from which the limit of a walk holds, m/s for a person's leg; below it the limit falls evenly.
+/// Speed from which the limit of a walk holds, m/s for a person's leg; below it the limit falls linearly to that of standing.
 const LEANING_WALK_MPS: f64 = 0.3;
 /// Height over the ankles below which a knee is on the ground, leg lengths. The rear knee of a crouched walk: 0.16.
 const KNEE_ON_GROUND_MAX: f64 = 0.11;
@@ -116,16 +116,16 @@ impl LegHeights<'_> {
         hips(frame).distance(hips(frame - 1)) * self.clip.frame_rate_hz
     }
 
-    /// The speed of a person at which this body has a speed, m/s: speeds of legs of another length scale with its root.
+    /// A speed scaled to a person's leg, m/s: speeds of legs of another length scale with its root (Froude number).
     fn human_mps(&self, speed_mps: f64) -> f64 {
         speed_mps * (HUMAN_LEG_M / self.leg_m).sqrt()
     }
 
     /// What the body does in frames in which it is not upright, six cases:
-    /// - trunk as in a run, a knee low: it kneels;
-    /// - trunk as in a run, but not as in a body that stands: it bends over;
-    /// - trunk upright: it crouches;
-    /// - trunk not upright, hips low: it lies;
+    /// - lean up to 50°, a knee low: it kneels;
+    /// - lean of 40 to 50°, legs straight: it bends over;
+    /// - lean up to 50° otherwise: it crouches;
+    /// - lean above 50°, hips low: it lies;
     /// - hips high, a hand low: it goes on its hands;
     /// - hands high: it bends over.
     fn low_part(&self, frames: Range<usize>) -> LowPart {
@@ -137,9 +137,10 @@ impl LegHeights<'_> {
             (mean(heights).unwrap_or_default() - ground_m) / self.leg_m
         };
         let trunk = frames.clone().map(|frame| self.trunk(frame)).sum::<DVec3>();
+        let leg_share = mean(frames.clone().map(|frame| self.straighter_leg(frame))).unwrap_or_default();
         let posture = match lean_deg(trunk) > LEAN_MAX_DEG {
             false if lower(Joint::SHANKS) < KNEE_ON_GROUND_MAX => Posture::Kneeling,
-            false if lean_deg(trunk) > STANDING_LEAN_MAX_DEG => Posture::BentOver,
+            false if lean_deg(trunk) > STANDING_LEAN_MAX_DEG && leg_share > WALKING_LEG_MIN => Posture::BentOver,
             false => Posture::Crouching,
             true if lower(Joint::THIGHS) < LYING_MAX => Posture::Lying,
             true if lower([Joint::LeftHand, Joint::RightHand]) < HAND_ON_GROUND_MAX => Posture::OnHands,

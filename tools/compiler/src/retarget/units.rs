@@ -31,8 +31,8 @@ pub(crate) const UNITS: [(f64, f64); 6] =
 const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
 /// Greatest misfit of a cadence: beyond 1.5 times the range the frame time is wrong, which says nothing of the unit.
 const CADENCE_MISFIT_MAX: f64 = 0.4;
-/// Legs, thigh plus shank, m, that a unit which most tools write may give beside one that few do: from a toy's on. An
-/// adult's legs in inches may be those of a figure of 0.3 m in centimetres.
+/// Possible leg lengths, thigh plus shank, m, where a usual unit competes with a rare one: an adult's legs in inches may be
+/// those of a figure of 0.3 m in centimetres.
 const POSSIBLE_LEG_M: RangeInclusive<f64> = 0.2..=2.9;
 /// Gravity, m/s².
 const GRAVITY_MPS2: f64 = 9.81;
@@ -44,6 +44,7 @@ const NEAR_MISFIT: f64 = 0.29;
 const LONGEST_PERCENTILE: f64 = 0.9;
 /// Distance of feet and shoulders in a body that stands, divided by their distance when it stands straight.
 const LONG_SHARE: f64 = 0.85;
+
 /// Up axis and unit of a source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceUnits {
@@ -81,8 +82,8 @@ fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
     units[0].unit_m
 }
 
-/// The unit that may be the right one beside the likeliest: one that is nearly as likely, or a usual one beside a rare
-/// one.
+/// The unit that may be right in place of the likeliest: one that is nearly as likely, or a usual one where the likeliest is
+/// rare.
 fn doubt(units: &[UnitMisfit]) -> Option<UnitMisfit> {
     let (best, others) = units.split_first()?;
     let is_usual = |unit: &UnitMisfit| unit.unit_misfit == 0.0 && POSSIBLE_LEG_M.contains(&unit.leg_m);

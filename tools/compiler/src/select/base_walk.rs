@@ -11,8 +11,8 @@ const BASE_WALK_MPS: f64 = 1.2;
 /// Speed that makes a walk as unlike m_sp as a turn rate does, divided by that rate, m.
 const TURN_RADIUS_M: f64 = 1.0;
 
-/// Share of the cycle with both feet in the air from which on it is a run: jogs have 0.2, captures of brisk walks, whose
-/// contacts are read too short, up to 0.1.
+/// Least share of the cycle with both feet in the air in a run. Jogs: 0.2; brisk walks whose contacts are detected too short: up
+/// to 0.1.
 const FLIGHT_MIN: f64 = 0.15;
 
 /// A cycle that steps, as far as it matters for the choice of m_sp.
@@ -26,14 +26,17 @@ pub(crate) struct BaseWalkCandidate {
     pub(crate) is_doubtful: bool,
     /// Share of the cycle with both feet in the air.
     pub(crate) flight_share: f64,
-    /// How far the body is from a person's at ease, m/s; see [`unease_mps`](crate::select::ease::unease_mps).
-    pub(crate) unease_mps: f64,
+    /// Its posture penalty, m/s ([`crate::select::posture_penalty`]).
+    pub(crate) posture_penalty_mps: f64,
 }
 
-/// Index of m_sp among cycles that step: of the upright ones, of these the straight, of these the ones with clean feet, of
-/// these the walks, the one nearest 1.2 m/s, where a body that is not at ease counts as another speed. A quality that none
-/// of them has does not count. Where none is straight, the rates of the root are to be nearest to those of a straight
-/// walk: a body leans in a circle, and turns its head.
+/// Index of m_sp among cycles that step. Each criterion counts only where a cycle meets it:
+/// 1. upright;
+/// 2. straight;
+/// 3. clean feet;
+/// 4. no flight;
+/// 5. least difference from 1.2 m/s, plus the posture penalty. Where none is straight, the rates of the root are to be nearest
+///    to those of a straight walk: a body leans in a circle, and turns its head.
 pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
     let faults = |walk: &BaseWalkCandidate| {
         let is_run = walk.flight_share > FLIGHT_MIN;
@@ -43,10 +46,10 @@ pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
         let Rates { speed_mps, turn_rate_rad_s, strafe_mps } = walk.rates;
         let off_mps = speed_mps - BASE_WALK_MPS;
         if goes_straight(&walk.rates.to_parameters()) {
-            return off_mps.abs() + walk.unease_mps;
+            return off_mps.abs() + walk.posture_penalty_mps;
         }
         let turn_mps = TURN_RADIUS_M * turn_rate_rad_s;
-        libm::sqrt(off_mps * off_mps + turn_mps * turn_mps + strafe_mps * strafe_mps) + walk.unease_mps
+        libm::sqrt(off_mps * off_mps + turn_mps * turn_mps + strafe_mps * strafe_mps) + walk.posture_penalty_mps
     };
     (0..stepping.len()).min_by(|&a, &b| {
         let (a, b) = (&stepping[a], &stepping[b]);
@@ -60,7 +63,7 @@ mod tests {
 
     fn candidate(speed_mps: f64, turn_rate_rad_s: f64) -> BaseWalkCandidate {
         let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
-        BaseWalkCandidate { rates, is_upright: true, is_doubtful: false, flight_share: 0.0, unease_mps: 0.0 }
+        BaseWalkCandidate { rates, is_upright: true, is_doubtful: false, flight_share: 0.0, posture_penalty_mps: 0.0 }
     }
 
     #[test]
@@ -75,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn base_walk_is_upright_and_clean() {
+    fn upright_walks_with_clean_feet_are_preferred() {
         let (run, walk) = (candidate(3.0, 0.0), candidate(1.2, 0.0));
         let crawl = BaseWalkCandidate { is_upright: false, ..walk };
         let sliding = BaseWalkCandidate { is_doubtful: true, ..walk };
@@ -86,11 +89,11 @@ mod tests {
     }
 
     #[test]
-    fn base_walk_is_at_ease_and_no_run() {
+    fn bent_walks_and_runs_give_way() {
         let (stroll, walk) = (candidate(0.7, 0.0), candidate(1.2, 0.0));
         let slow_jog = BaseWalkCandidate { flight_share: 0.2, ..walk };
         assert_eq!(base_walk(&[slow_jog, stroll]), Some(1));
-        let stalk = BaseWalkCandidate { unease_mps: 0.6, ..walk };
+        let stalk = BaseWalkCandidate { posture_penalty_mps: 0.6, ..walk };
         assert_eq!(base_walk(&[stalk, stroll]), Some(1));
         assert_eq!(base_walk(&[stalk, stroll, walk]), Some(2));
         assert_eq!(base_walk(&[candidate(0.3, 0.0), stalk]), Some(1));

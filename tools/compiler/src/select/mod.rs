@@ -4,13 +4,14 @@
 //! out.
 //!
 //! Read in the order of the pipeline: `best_windows`, `clean_cycles` (by `rate_hull`), `named_cycles`, `limited_set`,
-//! `mirror`; `base_walk` chooses m_sp, by `ease` among others.
+//! `mirror`; `base_walk` chooses m_sp, by `posture_penalty` among others.
 
 pub(crate) mod base_walk;
 pub(crate) mod best_windows;
 pub(crate) mod clean_cycles;
-pub(crate) mod ease;
+
 pub(crate) mod limited_set;
 pub(crate) mod mirror;
 pub(crate) mod named_cycles;
+pub(crate) mod posture_penalty;
 mod rate_hull;

@@ -1,4 +1,4 @@
-//! Clips that give transitions and no example, because they hold no steady gait: a note, nothing to mend.
+//! Notes on clips that give transitions and no example, because they hold no steady gait.
 
 use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::{ActionKind, SourceRecord};

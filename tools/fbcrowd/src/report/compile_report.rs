@@ -121,7 +121,7 @@ pub(crate) struct ExampleReport {
     pub(crate) name: String,
     /// Whether the motion is mirrored.
     pub(crate) mirrored: bool,
-    /// Whether it is the base walk m_sp, which semi-procedural locomotion deforms; never of a lone example.
+    /// Whether it is the base walk m_sp, which semi-procedural locomotion deforms. False where there is one example only.
     pub(crate) base_walk: bool,
     /// Start and end of the window in the clip, s.
     pub(crate) window_s: [f32; 2],

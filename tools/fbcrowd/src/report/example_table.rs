@@ -79,7 +79,7 @@ impl TableRow<'_> {
         );
         let joint = self.findings.contains(&"range_excess_deg").then(|| format!(" {}!", quality.range_excess_joint));
         let mirrored = if self.is_mirrored { " and mirrored" } else { "" };
-        let base_walk = if example.base_walk { " base walk (m_sp)" } else { "" };
+        let base_walk = if example.base_walk { "; base walk (m_sp)" } else { "" };
         format!("{parameters}  {figures}{}{mirrored}{base_walk}", joint.unwrap_or_default()).trim_end().to_owned()
     }
 }

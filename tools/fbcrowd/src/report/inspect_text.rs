@@ -86,7 +86,7 @@ fn correspondence_text(correspondence: Option<&Correspondence>) -> String {
     let Some(found) = correspondence else { return "correspondences     none\n".into() };
     let pairs: Vec<String> = found.pairs_s.iter().map(|[sp, mb]| format!("{sp:.3}/{mb:.3}")).collect();
     let examples = format!("m_sp / m_mb         {} / {}\n", found.semi_procedural, found.blending);
-    examples + &format!("correspondences, s  {}\n", pairs.join("  "))
+    examples + &format!("t_sp/t_mb, s        {}\n", pairs.join("  "))
 }
 
 fn coverage_text(coverage: &[CoverageGap]) -> String {

@@ -36,8 +36,8 @@ fn next_steps(report: &CompileReport) -> Vec<String> {
     let manners = unstyled_manners(report);
     if manners.len() > 1 {
         next.push(format!(
-            "By their names clips may move in several manners ({}); all are blended with one another. To keep them apart, \
-             state a `style` for each in a manifest.toml.",
+            "File names suggest several styles ({}), but all these clips are blended as one. To separate them, state the \
+             `style` of the clips in a manifest.toml.",
             manners.into_iter().collect::<Vec<_>>().join(", ")
         ));
     }

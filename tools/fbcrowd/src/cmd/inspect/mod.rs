@@ -110,12 +110,12 @@ fn character_options(args: &Args) -> Result<CharacterOptions<'_>, Failure> {
     })
 }
 
-/// Checks by its name that a file may hold clips. Folders, missing files and files of other formats, which have errors of
-/// their own, are checked when they are read.
+/// Checks by its name that a file may hold clips. Folders, missing files and files of other formats are accepted here;
+/// reading them gives a more precise error.
 fn check_kind(path: &Path) -> Result<(), Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let is_clip = ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str());
-    if !path.is_file() || is_clip || ForeignFormat::of_name(path).is_some() {
+    let is_accepted = ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str());
+    if !path.is_file() || is_accepted || ForeignFormat::of_name(path).is_some() {
         return Ok(());
     }
     let what = match extension.as_str() {

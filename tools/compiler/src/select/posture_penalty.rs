@@ -1,5 +1,5 @@
-//! How far a gait is from that of a person at ease: bent legs, a bent trunk, a raised arm. As a speed, m/s, so that it can
-//! be weighed against the speed of another gait.
+//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm. It is a speed, m/s, so that it can be weighed against
+//! the speed of another gait.
 
 use glam::DVec3;
 use motiondb::body::Joint;
@@ -10,23 +10,22 @@ use crate::cycle::gait_cycle::GaitCycle;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::rig::roles::ARMS;
 
-/// Least height of the hips over the ankle of the straighter leg in a walk on straight legs, leg lengths; mean over the
-/// cycle. Walks of the development set: 0.91 to 0.98 straight on, 0.90 in a quick curve.
+/// Least height of the hips over the ankle of the straighter leg without penalty, leg lengths; mean over the cycle. Walks of the development set: 0.91 to 0.98 straight on, 0.90 in a quick curve.
 const STRAIGHT_LEGS: f64 = 0.9;
-/// Weight of lower hips, m/s a leg length: hips at 0.86 are as unlike a walk at ease as 0.6 m/s.
+/// Penalty of lower hips, m/s a leg length: hips at 0.86 leg lengths cost 0.6 m/s.
 const BENT_LEGS_MPS: f64 = 15.0;
-/// Greatest lean of the trunk of a walk at ease, degrees; mean over the cycle.
+/// Greatest lean of the trunk without penalty, degrees; mean over the cycle.
 const LEAN_DEG: f64 = 15.0;
-/// Weight of a deeper lean, m/s a degree: one of 45° is as unlike as 0.9 m/s.
+/// Penalty of a deeper lean, m/s a degree: one of 45° costs 0.9 m/s.
 const LEAN_MPS: f64 = 0.03;
-/// Greatest angle of the higher wrist, seen from its shoulder, off straight down in a gait at ease, degrees; mean over the
-/// cycle. Runs bend their elbows to 50.
+/// Greatest angle of the higher wrist, seen from its shoulder, off straight down without penalty, degrees; mean over the
+/// cycle. In runs, with bent elbows, this angle reaches 50.
 const ARM_DEG: f64 = 60.0;
-/// Weight of a higher arm, m/s a degree: a level arm is as unlike as 0.3 m/s.
+/// Penalty of a higher arm, m/s a degree: a level arm costs 0.3 m/s.
 const ARM_MPS: f64 = 0.01;
 
-/// How far a gait is from one at ease, m/s; 0 for a body that walks upright with hanging arms.
-pub(crate) fn unease_mps(cycle: &GaitCycle, body: &HumanBody) -> f64 {
+/// The posture penalty of a gait, m/s; 0 for a body that walks upright with hanging arms.
+pub(crate) fn posture_penalty_mps(cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let mean_of = |value: &dyn Fn(&HumanJoints) -> f64| mean(joints.iter().map(value)).unwrap_or_default();
     let legs = mean_of(&straighter_leg_m) / body.leg_length_m();
