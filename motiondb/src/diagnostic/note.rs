@@ -208,17 +208,7 @@ impl fmt::Display for Note {
             Self::StrafeSnapped { strafe_mps, from_s } => {
                 write!(out, "the side speed of {strafe_mps:.3} m/s{} is set to 0", of_example(*from_s))
             }
-            Self::WindowsLeftOut { near_equal, doubtful: 0 } => {
-                write!(out, "left out: {}, near-equal to examples", steady_windows(*near_equal))
-            }
-            Self::WindowsLeftOut { near_equal: 0, doubtful } => {
-                write!(out, "left out: {}, whose feet slide or are hardly planted", steady_windows(*doubtful))
-            }
-            Self::WindowsLeftOut { near_equal, doubtful } => write!(
-                out,
-                "left out: {}, {near_equal} near-equal to examples and {doubtful} whose feet slide or are hardly planted",
-                steady_windows(near_equal + doubtful)
-            ),
+            Self::WindowsLeftOut { near_equal, doubtful } => windows_left_out(out, *near_equal, *doubtful),
             Self::ExampleLeftOut { example, max_examples } => {
                 write!(out, "`{example}` is left out: max_examples = {max_examples}")
             }
@@ -228,14 +218,7 @@ impl fmt::Display for Note {
             Self::OnlyTransitionsUsed { reason } => {
                 write!(out, "the clip gives transitions, but no example of a gait: {reason}")
             }
-            Self::RestsLeftOut { longest_s: [first_s, last_s], reason, more } => {
-                let more = match more {
-                    0 => String::new(),
-                    1 => " (1 further part is left out, too)".to_owned(),
-                    _ => format!(" ({more} further parts are left out, too)"),
-                };
-                write!(out, "no idle is made from {first_s:.1} s to {last_s:.1} s{more}: {reason}")
-            }
+            Self::RestsLeftOut { longest_s, reason, more } => rests_left_out(out, *longest_s, reason, *more),
             Self::SameTake { other, mirrored, windows_left_out } => {
                 write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))
             }
@@ -254,20 +237,7 @@ impl fmt::Display for Note {
             Self::AddedToStyle { style } => {
                 write!(out, "no clip without a style steps, so this one is used for style `{style}`")
             }
-            Self::CornersUnused { window_s: [first_s, last_s], turn_rad, more } => {
-                let (turn_deg, side) = (turn_rad.abs().to_degrees(), if *turn_rad > 0.0 { "left" } else { "right" });
-                let rate_deg_s = turn_deg / (last_s - first_s).max(f32::EPSILON);
-                write!(
-                    out,
-                    "from {first_s:.1} s to {last_s:.1} s the body walks and turns by {turn_deg:.0}° to the {side} "
-                )?;
-                write!(out, "({rate_deg_s:.0} °/s); no example and no transition shows this")?;
-                match more {
-                    0 => Ok(()),
-                    1 => out.write_str(", nor 1 further turn"),
-                    _ => write!(out, ", nor {more} further turns"),
-                }
-            }
+            Self::CornersUnused { window_s, turn_rad, more } => corners_unused(out, *window_s, *turn_rad, *more),
             Self::JointsLeftOut { moving: 1, .. } => out.write_str(
                 "1 moving joint of hands, feet and limbs is not used: it is no finger, toe or twist bone by its name, or \
                  does not fit",
@@ -277,13 +247,59 @@ impl fmt::Display for Note {
                 "{moving} moving joints of hands, feet and limbs are not used: they are no fingers, toes or twist bones \
                  by their names, or more than fit; {kept} are kept"
             ),
-            Self::LowPartsLeftOut { posture, longest_s: [first_s, last_s], total_s, more } => {
-                write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;
-                if *more > 0 {
-                    write!(out, ", and in {more} more parts it is not upright ({total_s:.1} s in all)")?;
-                }
-                out.write_str("; this gives no example (state `posture = \"any\"` in a manifest.toml to use it)")
+            Self::LowPartsLeftOut { posture, longest_s, total_s, more } => {
+                low_parts_left_out(out, *posture, *longest_s, *total_s, *more)
             }
         }
     }
+}
+
+fn windows_left_out(out: &mut fmt::Formatter<'_>, near_equal: u32, doubtful: u32) -> fmt::Result {
+    let windows = steady_windows(near_equal + doubtful);
+    match (near_equal, doubtful) {
+        (_, 0) => write!(out, "left out: {windows}, near-equal to examples"),
+        (0, _) => write!(out, "left out: {windows}, whose feet slide or are hardly planted"),
+        _ => write!(
+            out,
+            "left out: {windows}, {near_equal} near-equal to examples and {doubtful} whose feet slide or are hardly planted"
+        ),
+    }
+}
+
+fn rests_left_out(out: &mut fmt::Formatter<'_>, [first_s, last_s]: [f32; 2], reason: &Unfit, more: u32) -> fmt::Result {
+    let more = match more {
+        0 => String::new(),
+        1 => " (1 further part is left out, too)".to_owned(),
+        _ => format!(" ({more} further parts are left out, too)"),
+    };
+    write!(out, "no idle is made from {first_s:.1} s to {last_s:.1} s{more}: {reason}")
+}
+
+fn corners_unused(out: &mut fmt::Formatter<'_>, [first_s, last_s]: [f32; 2], turn_rad: f32, more: u32) -> fmt::Result {
+    let (turn_deg, side) = (turn_rad.abs().to_degrees(), if turn_rad > 0.0 { "left" } else { "right" });
+    let rate_deg_s = turn_deg / (last_s - first_s).max(f32::EPSILON);
+    write!(
+        out,
+        "from {first_s:.1} s to {last_s:.1} s the body walks and turns by {turn_deg:.0}° to the {side} \
+         ({rate_deg_s:.0} °/s); no example and no transition shows this"
+    )?;
+    match more {
+        0 => Ok(()),
+        1 => out.write_str(", nor 1 further turn"),
+        _ => write!(out, ", nor {more} further turns"),
+    }
+}
+
+fn low_parts_left_out(
+    out: &mut fmt::Formatter<'_>,
+    posture: Posture,
+    [first_s, last_s]: [f32; 2],
+    total_s: f32,
+    more: u32,
+) -> fmt::Result {
+    write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;
+    if more > 0 {
+        write!(out, ", and in {more} more parts it is not upright ({total_s:.1} s in all)")?;
+    }
+    out.write_str("; this gives no example (state `posture = \"any\"` in a manifest.toml to use it)")
 }

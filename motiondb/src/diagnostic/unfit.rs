@@ -177,9 +177,10 @@ impl fmt::Display for Unfit {
                 "no foot was found that both lands and leaves the ground, and the body does not stand; use a clip of a \
                  steady gait, at least a stride and a half (1.5 to 2 s of a walk)",
             ),
-            Self::NoWholeStride => {
-                out.write_str("no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first")
-            }
+            Self::NoWholeStride => out.write_str(
+                "no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), \
+                 or a loop whose last pose leads into its first",
+            ),
             Self::NoSteadyStride => out
                 .write_str("no steady stride was found: each differs from its neighbours; use a clip of a steady gait"),
             Self::PelvisOutOfReach => {

@@ -3,13 +3,14 @@
 //! # Steps
 //! 1. read ([`crate::read::bvh`], [`crate::read::gltf`]) → `SourceMotion` in source units and axes
 //! 2. settings of a manifest (`clip_settings`)
-//! 3. roles of joints ([`crate::rig`]) in a few frames, or in the rest pose of a body that crawls → `SourceClip`: all frames
-//!    of the joints that have roles; the stated facing (`stated_facing`)
+//! 3. roles of joints ([`crate::rig`]) in a few frames, or in the rest pose of a body that crawls → `SourceClip`: all
+//!    frames of the joints that have roles; the stated facing (`stated_facing`)
 //! 4. metres, z up ([`crate::retarget::units`]); of a body that crawls, up as its rest pose stands
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
 //!    ends
 //! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
-//! 7. parts that are not upright (`posture`), or a bind pose (`spread_arms`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
+//! 7. parts in which the body is not upright (`posture`) or stands in a bind pose (`spread_arms`), canonical humanoid
+//!    (`to_humanoid`), check of its body → `HumanClip`
 
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
@@ -29,7 +30,7 @@ use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::GltfFile;
 use crate::read::source_clip::SourceClip;
 use crate::read::source_motion::{JointPoses, SourceMotion};
-use crate::retarget::human_clip::{HumanClip, HumanPose};
+use crate::retarget::human_clip::{Choices, HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
 use crate::rig::rest_pose::RestPose;
@@ -217,13 +218,12 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let lengthwise = || lengthwise_path::lengthwise_path(&clip, &roles).filter(|_| !crawls);
     let unfit = contradicted_up.clone().or_else(lengthwise).or_else(|| {
         warnings.push(level_ground::warning(&clip, &roles, &parameters));
-        match plausibility::doubtful_gait(&clip, &roles, &parameters)? {
-            Diagnostic::NoExample(unfit) => Some(unfit),
-            doubt => {
-                clip.diagnostics.push(doubt);
-                None
-            }
+        let gait = plausibility::doubtful_gait(&clip, &roles, &parameters)?;
+        if let Diagnostic::NoExample(unfit) = gait {
+            return Some(unfit);
         }
+        clip.diagnostics.push(gait);
+        None
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
     let jumps = pose_jumps::pose_jumps(&clip, &roles);
@@ -235,8 +235,10 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
     let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
     clip.diagnostics.extend(jump.map(Diagnostic::Warning));
-    let is_up_known = contradicted_up.is_none();
-    let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
+    let low_parts = match contradicted_up {
+        None => posture::low_parts(&clip, &roles, &parameters),
+        Some(_) => Vec::new(),
+    };
     let spread_parts = spread_arms::spread_parts(&clip, &roles, &parameters);
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
     human.spread_parts = spread_parts;
@@ -245,15 +247,23 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     }
     human.unfit = unfit;
     human.jumps = jumps.into_iter().map(|jump| jump.frames).collect();
-    human.choices.takes_any_posture = settings.takes_any_posture;
-    human.choices.is_up_stated = settings.up.is_some();
-    human.choices.mirror = settings.mirror;
-    human.choices.transition = settings.transition;
-    human.choices.is_cut = settings.frames.is_some();
+    human.choices = choices(settings);
     if !human.frames.iter().all(is_finite) {
         return Err(RejectionReason::Degenerate);
     }
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
+}
+
+/// What the settings of a clip state about its part in the set.
+fn choices(settings: &ClipSettings) -> Choices {
+    Choices {
+        takes_any_posture: settings.takes_any_posture,
+        is_up_stated: settings.up.is_some(),
+        mirror: settings.mirror,
+        transition: settings.transition,
+        is_cut: settings.frames.is_some(),
+        ..Choices::default()
+    }
 }
 
 /// The joints that have roles and the extra joints, in all frames; their roles; and what the rest pose shows. Memory: the

@@ -5,8 +5,9 @@
 //!
 //! Read `polygons` (free space), [`mesh`] (its triangles) and [`field`] (shortest routes over it); then `crowd_routes`
 //! (the routes of all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path`
-//! (v_pref and facing along waypoints) with `rounded_waypoint` and `braking`, and `arrival` (when an agent has arrived); `reach` finds unreachable goals and
-//! closed passages before a simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
+//! (v_pref and facing along waypoints) with `rounded_waypoint` and `braking`, and `arrival` (when an agent has
+//! arrived); `reach` finds unreachable goals and closed passages before a simulation, with `area_reach` (areas) and
+//! `one_way_reach` (one-way zones).
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};

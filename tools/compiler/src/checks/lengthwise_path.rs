@@ -1,5 +1,5 @@
-//! Whether a body moves along the line from its feet to its shoulders, as one that climbs, swims, crawls or jumps high. Clips
-//! in any axes and unit.
+//! Whether a body moves along the line from its feet to its shoulders, as one that climbs, swims, crawls or jumps high.
+//! Clips in any axes and unit.
 
 use glam::DVec3;
 use motiondb::body::Joint;

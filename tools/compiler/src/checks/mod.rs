@@ -5,8 +5,8 @@
 //! reasons of rejection, all typed.
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
-//! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `spread_arms` where it stands
-//! as in a bind pose; `lying` which clips of a set show a body that lies.
+//! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `spread_arms` where it
+//! stands as in a bind pose; `lying` which clips of a set show a body that lies.
 
 pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;

@@ -26,7 +26,8 @@ const WALK_RATIO_CM_MIN: RangeInclusive<f64> = 0.15..=2.0;
 /// Walk ratio above which a walk looks like slow motion, cm/(step/min), for a person's leg: half the frame rate doubles
 /// the ratio. Development set: 0.93 and less.
 const SLOW_MOTION_CM_MIN: f64 = 1.05;
-/// The same of a gait whose feet stand as briefly as in a run. Brisk walks: 0.76 and less; jogs at half their speed from 0.9 on.
+/// The same of a gait whose feet stand as briefly as in a run. Brisk walks: 0.76 and less; jogs at half their speed
+/// from 0.9 on.
 const SLOW_RUN_CM_MIN: f64 = 0.85;
 /// Cadence below which such a gait is slow motion, steps/min, for a person's leg. Development set: dashes from 126 on;
 /// brisk walks and runs at half their speed up to 84.
@@ -36,8 +37,8 @@ const TURN_OF_STEP_RAD: f64 = std::f64::consts::FRAC_PI_6;
 /// Walk ratio below which a gait of a high cadence looks like quick motion, cm/(step/min), for a person's leg: twice the
 /// frame rate halves the ratio. Walks at twice their speed: 0.27 to 0.42.
 const QUICK_MOTION_CM_MIN: f64 = 0.42;
-/// Cadences above which a gait of such a ratio is quick motion, `[walk, other gait]`, steps/min, for a person's leg. Greatest
-/// in the development set: 158 and 175.
+/// Cadences above which a gait of such a ratio is quick motion, `[walk, other gait]`, steps/min, for a person's leg.
+/// Greatest in the development set: 158 and 175.
 const QUICK_PER_MIN: [f64; 2] = [165.0, 190.0];
 /// Greatest cadence, steps/min, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;

@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
 use motiondb::body::Joint;
 
 use crate::frame_runs::frame_runs;
@@ -11,14 +10,13 @@ use crate::read::source_clip::SourceClip;
 use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
-use crate::rig::roles::{ARMS, Roles};
+use crate::rig::body_angles::arms_out_deg;
+use crate::rig::roles::Roles;
 
 /// Least angle of both straight arms off straight down in a bind pose, degrees.
 pub(crate) const ARMS_OUT_DEG: f64 = 30.0;
 /// Angle from straight down above which both arms count as raised, not spread, degrees.
 pub(crate) const ARMS_UP_DEG: f64 = 120.0;
-/// Greatest flexion of the elbow of a straight arm, degrees.
-const STRAIGHT_DEG: f64 = 25.0;
 /// Greatest speed of the hips of a body that stands, m/s for a person's leg. Styles spread their arms while they walk.
 const STANDING_MPS: f64 = 0.15;
 /// Half of the span over which that speed is measured, s.
@@ -54,23 +52,4 @@ pub(crate) fn spread_parts(clip: &SourceClip, roles: &Roles, parameters: &Source
     }
     let share = flags.iter().filter(|flag| **flag).count() as f64 / count as f64;
     if share > SHARE_MAX { Vec::new() } else { frame_runs(&flags, true) }
-}
-
-/// The lesser angle of the two arms from straight down, degrees; 0 unless both are straight and point aside.
-pub(crate) fn arms_out_deg(position: impl Fn(Joint) -> DVec3) -> f64 {
-    let [left, right] = ARMS.map(|[shoulder, _, _]| position(shoulder));
-    let to_left = (left - right).with_z(0.0).normalize_or_zero();
-    let out_deg = |[shoulder, elbow, wrist]: [Joint; 3], outward: DVec3| {
-        let [upper, fore] = [[shoulder, elbow], [elbow, wrist]].map(|[from, to]| position(to) - position(from));
-        let arm = upper + fore;
-        let (aside, ahead) = (arm.dot(outward), arm.dot(DVec3::Z.cross(outward)));
-        let is_straight = angle_deg(upper, fore) < STRAIGHT_DEG && ahead.abs() < aside;
-        if is_straight { libm::atan2(aside, -arm.z).to_degrees().max(0.0) } else { 0.0 }
-    };
-    out_deg(ARMS[0], to_left).min(out_deg(ARMS[1], -to_left))
-}
-
-/// Angle between two vectors, degrees.
-pub(crate) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
-    libm::acos(a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0)).to_degrees()
 }

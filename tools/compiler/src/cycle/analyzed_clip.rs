@@ -104,23 +104,24 @@ impl AnalyzedClip {
         let movements = clip_movements(clip, &performer.gait, &grounded);
         let corners = clip_corners(clip, &performer.gait, &times, grounded.loop_frames());
         let rests = performer.gait.rests;
-        let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
-        let rests_left_out = times.rests_note(clip, &rests, &grounded, body).map(Diagnostic::Note);
+        let low_parts = times.low_parts_note(clip.left_out_parts());
+        let rests_left_out = times.rests_note(clip, &rests, &grounded, body);
         if windows.is_empty() {
-            let reason = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect::<Vec<_>>();
+            let reason = reasons.into_iter().next();
+            let low_parts = low_parts.filter(|_| !matches!(reason, Some(Unfit::NotUpright { .. })));
+            let rests_left_out = rests_left_out.filter(|_| !reason.as_ref().is_some_and(is_of_arms));
             // The parts of a clip that import rejects, or of which a transition is stated, are not reported.
-            let are_known = clip.unfit.is_none() && clip.choices.transition.is_none();
-            let is = |unfit: fn(&Unfit) -> bool| matches!(&reason[..], [Diagnostic::NoExample(found)] if unfit(found));
-            let low_parts = low_parts.filter(|_| are_known && !is(|found| matches!(found, Unfit::NotUpright { .. })));
-            let rests_left_out = rests_left_out.filter(|_| are_known && !is(is_of_arms));
-            let parts = low_parts.into_iter().chain(rests_left_out);
-            let diagnostics = reason.into_iter().chain(parts).collect();
+            let are_reported = clip.unfit.is_none() && clip.choices.transition.is_none();
+            let parts = low_parts.into_iter().chain(rests_left_out).filter(|_| are_reported);
+            let diagnostics =
+                reason.map(Diagnostic::NoExample).into_iter().chain(parts.map(Diagnostic::Note)).collect();
             let left_out = LeftOutWindows::default();
             return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
         }
-        let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
+        let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
         let left_out = LeftOutWindows { doubtful, near_equal: 0 };
-        let diagnostics = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).collect();
+        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out);
+        let diagnostics = notes.map(Diagnostic::Note).collect();
         Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
 

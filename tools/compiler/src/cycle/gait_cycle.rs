@@ -20,3 +20,11 @@ pub struct GaitCycle {
     /// The body steps; otherwise it stands.
     pub steps: bool,
 }
+
+impl GaitCycle {
+    /// Share of the cycle with both feet in the air.
+    pub(crate) fn flight_share(&self) -> f64 {
+        let flies = |contacts: &&[f64; 2]| contacts.iter().all(|contact| *contact < 0.5);
+        self.contacts.iter().filter(flies).count() as f64 / self.contacts.len().max(1) as f64
+    }
+}

@@ -5,20 +5,20 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
-use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
-use crate::checks::spread_arms::{ARMS_OUT_DEG, ARMS_UP_DEG, angle_deg, arms_out_deg};
+use crate::checks::spread_arms::{ARMS_OUT_DEG, ARMS_UP_DEG};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
+use crate::rig::body_angles::{arms_deg, arms_out_deg, trunk_lean_deg};
 use crate::rig::roles::ARMS;
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
-/// Angle from straight down above which the higher arm counts as raised, degrees: folded arms have up to 67, an aimed gun 90.
+/// Angle from straight down above which the higher arm counts as raised, degrees: folded arms have up to 67, an aimed
+/// gun 90.
 const ARM_RAISED_DEG: f64 = 75.0;
 
 /// Figures of a rest, means over its frames.
@@ -53,12 +53,12 @@ impl Rest {
         Self {
             duration_s: (frames.len() - 1) as f64 / clip.frame_rate_hz,
             arms_raised: mean_of(&arms_raised),
-            arms_spread: mean_of(&|joints| arm_spread(|joint| joints.positions_m[joint.index()])),
-            arms_out_deg: mean_of(&|joints| arms_out_deg(|joint| position_m(joints, joint))),
-            higher_arm_deg: mean_of(&|joints| ARMS.map(|arm| arm_deg(joints, arm)).into_iter().fold(0.0, f64::max)),
-            lean_deg: mean_of(&|joints| {
-                angle_deg(position_m(joints, Joint::Neck) - position_m(joints, Joint::Pelvis), DVec3::Z)
+            arms_spread: mean_of(&|joints| arm_spread(|joint| joints.position_m(joint))),
+            arms_out_deg: mean_of(&|joints| arms_out_deg(|joint| joints.position_m(joint))),
+            higher_arm_deg: mean_of(&|joints| {
+                arms_deg(|joint| joints.position_m(joint)).into_iter().fold(0.0, f64::max)
             }),
+            lean_deg: mean_of(&|joints| trunk_lean_deg(|joint| joints.position_m(joint))),
             joint_speed_mps: mean(steps_m).unwrap_or_default() * clip.frame_rate_hz,
         }
     }
@@ -75,18 +75,9 @@ impl Rest {
     }
 }
 
-fn position_m(joints: &HumanJoints, joint: Joint) -> DVec3 {
-    joints.positions_m[joint.index()]
-}
-
 /// Height of the wrists over the shoulders, arm lengths, plus 1; mean of both arms.
 fn arms_raised(joints: &HumanJoints) -> f64 {
-    let [left, right] = ARMS
-        .map(|[shoulder, _, wrist]| (position_m(joints, wrist) - position_m(joints, shoulder)).normalize_or_zero().z);
+    let [left, right] =
+        ARMS.map(|[shoulder, _, wrist]| (joints.position_m(wrist) - joints.position_m(shoulder)).normalize_or_zero().z);
     1.0 + 0.5 * (left + right)
-}
-
-/// Angle off straight down of a wrist, seen from its shoulder, degrees.
-fn arm_deg(joints: &HumanJoints, [shoulder, _, wrist]: [Joint; 3]) -> f64 {
-    angle_deg(position_m(joints, wrist) - position_m(joints, shoulder), DVec3::NEG_Z)
 }

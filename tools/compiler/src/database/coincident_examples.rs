@@ -17,8 +17,8 @@ use crate::select::named_cycles::NamedCycle;
 /// Mean distance of the joints from which on two cycles of equal parameters differ in manner, m.
 const OTHER_MANNER_M: f64 = 0.06;
 
-/// The blend space over the `parameters` of examples; of coincident examples the one with the fewest `flaws` is the corner,
-/// not the first.
+/// The blend space over the `parameters` of examples; of coincident examples the one with the fewest `flaws` is the
+/// corner, not the first.
 pub(crate) fn blend_space_of_best(parameters: &[Parameters], flaws: &[f64]) -> BlendSpace {
     let space = build(parameters);
     let mut order: Vec<usize> = (0..parameters.len()).collect();

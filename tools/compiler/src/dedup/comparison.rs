@@ -143,7 +143,8 @@ fn nearest_between_rows(a: &[Row], b: &[Row]) -> Option<(f64, f64)> {
     found.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether the mean directions of upper arms and forearms are alike. Retimed series have no mean; arms are not compared there.
+/// Whether the mean directions of upper arms and forearms are alike. Retimed series have no mean; arms are not compared
+/// there.
 fn arms_are_alike(a: Option<Row>, b: Option<Row>) -> bool {
     let Some((a, b)) = a.zip(b) else { return true };
     let pairs = signature::arms(&a).into_iter().zip(signature::arms(&b));

@@ -2,9 +2,9 @@
 //! and the frame rate.
 //!
 //! A row holds eight unit vectors (thighs, shanks, upper arms, trunk, forward axis of the head) in the frame of the
-//! facing: x forward, y left, z up; first all x, then all y, then all z. Then come the facing in the world, radians, and the
-//! unit vectors of both forearms, of which only the mean is compared: exporters differ by 10° in them. Feet are left out for
-//! the same reason. A row is the mean over its twentieth of a second, so noise and the source's frame rate
+//! facing: x forward, y left, z up; first all x, then all y, then all z. Then come the facing in the world, radians,
+//! and the unit vectors of both forearms, of which only the mean is compared: exporters differ by 10° in them. Feet are
+//! left out for the same reason. A row is the mean over its twentieth of a second, so noise and the source's frame rate
 //! hardly show.
 
 use std::f64::consts::{PI, TAU};

@@ -3,8 +3,8 @@
 //! Enters: files, folders, a manifest. Leaves: one [`ClipSettings`] for each clip and the [`Options`] of the whole set;
 //! then, as [`ClipSet`], the imported clips in the order of a database, each with a unique name.
 //!
-//! Read `clip_settings` and `options`, then `manifest`, then `clip_set` with `rig_units`. `clip_files` finds clips in folders;
-//! `style_names` finds styles in paths; `unique_names` and `name_suggestions` help with names.
+//! Read `clip_settings` and `options`, then `manifest`, then `clip_set` with `rig_units`. `clip_files` finds clips in
+//! folders; `style_names` finds styles in paths; `unique_names` and `name_suggestions` help with names.
 
 pub(crate) mod clip_files;
 pub(crate) mod clip_set;

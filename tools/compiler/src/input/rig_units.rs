@@ -1,5 +1,5 @@
-//! One unit for each rig of a set. BVH files state none, and two clips of one rig may seem to have two units: a stroll in feet
-//! seems to be in metres, a run in decimetres. The unit of a rig is
+//! One unit for each rig of a set. BVH files state none, and two clips of one rig may seem to have two units: a stroll
+//! in feet seems to be in metres, a run in decimetres. The unit of a rig is
 //! 1. the one that a manifest states for one of its clips; of several the first;
 //! 2. the most frequent one; clips with a wrong frame time show no unit;
 //! 3. on a tie the first in [`UNITS`].

@@ -4,8 +4,8 @@
 //!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
 //! 2. Folders side by side that are named by known manners of moving, at least two of them. Numbers and words for movements
 //!    may stand beside the manner: `01_elderly`, `Happy Walk`.
-//! 3. Folders side by side that each hold a walk, by its name, and are named by words without digits, at least one of them by
-//!    a known manner.
+//! 3. Folders side by side that each hold a walk, by its name, and are named by words without digits, at least one of
+//!    them by a known manner.
 //!
 //! So folders of subjects, sexes, takes and movements are no styles.
 //!
@@ -282,14 +282,7 @@ impl<'a> StyleFolders<'a> {
         let mut styles = BTreeMap::new();
         let mut manners = Vec::new();
         for folders in siblings.into_values() {
-            let count = |counts: &dyn Fn(&StyleFolder) -> bool| {
-                let styles = folders.values().filter(|found| counts(found)).map(|found| &found.style);
-                styles.collect::<BTreeSet<&String>>().len()
-            };
-            let are_manners = count(&|found| found.is_manner) > 1;
-            let are_styles =
-                count(&|found| found.has_walk) > 1 && count(&|found| found.has_walk && found.is_manner) > 0;
-            let is_style = |found: &StyleFolder| are_manners && found.is_manner || are_styles && found.has_walk;
+            let is_style = styles_among(&folders);
             for (folder, found) in folders {
                 if is_style(&found) {
                     styles.insert(folder, found.style);
@@ -308,6 +301,17 @@ impl<'a> StyleFolders<'a> {
     fn style(&self, path: &Path) -> Option<String> {
         path.ancestors().skip(1).find_map(|folder| self.styles.get(folder)).cloned()
     }
+}
+
+/// Which of some folders side by side are styles.
+fn styles_among(folders: &BTreeMap<&Path, StyleFolder>) -> impl Fn(&StyleFolder) -> bool + use<> {
+    let count = |counts: &dyn Fn(&StyleFolder) -> bool| {
+        let styles = folders.values().filter(|found| counts(found)).map(|found| &found.style);
+        styles.collect::<BTreeSet<&String>>().len()
+    };
+    let are_manners = count(&|found| found.is_manner) > 1;
+    let have_walks = count(&|found| found.has_walk) > 1 && count(&|found| found.has_walk && found.is_manner) > 0;
+    move |found| are_manners && found.is_manner || have_walks && found.has_walk
 }
 
 /// The name of a folder, in lower case.

@@ -218,6 +218,11 @@ impl HumanPose {
 }
 
 impl HumanJoints {
+    /// Position of a joint, m.
+    pub(crate) fn position_m(&self, joint: Joint) -> DVec3 {
+        self.positions_m[joint.index()]
+    }
+
     /// World positions of heel, ball and toe tip on the sole of one foot, m.
     pub fn sole_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
         self.foot_points_m(side, body.soles_m[side])

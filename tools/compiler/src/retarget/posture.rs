@@ -32,9 +32,11 @@ const RUNNING_MPS: f64 = 2.2;
 /// Greatest lean of an upright trunk that walks or runs, degrees. Development set: 38 in the lowest twentieth of a
 /// sprint's start.
 const LEAN_MAX_DEG: f64 = 50.0;
-/// The same of a body that stands. A deeper lean is a bow, or a reach for the ground. Idles of the development set: up to 24.
+/// The same of a body that stands. A deeper lean is a bow, or a reach for the ground. Idles of the development set: up
+/// to 24.
 const STANDING_LEAN_MAX_DEG: f64 = 40.0;
-/// Speed from which the limit of a walk holds, m/s for a person's leg; below it the limit falls linearly to that of standing.
+/// Speed from which the limit of a walk holds, m/s for a person's leg; below it the limit falls linearly to that of
+/// standing.
 const LEANING_WALK_MPS: f64 = 0.3;
 /// Height over the ankles below which a knee is on the ground, leg lengths. The rear knee of a crouched walk: 0.16.
 const KNEE_ON_GROUND_MAX: f64 = 0.11;

@@ -4,8 +4,10 @@
 //!
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
 //! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
-//! characters), `surplus_legs` (bodies with more than two legs), `rig_head` (what the clips of one rig share) and `rest_pose`.
+//! characters), `surplus_legs` (bodies with more than two legs), `rig_head` (what the clips of one rig share)
+//! and `rest_pose`. `body_angles` measures trunk and arms by their roles.
 
+pub(crate) mod body_angles;
 mod body_plan;
 pub(crate) mod joint_names;
 mod limb;

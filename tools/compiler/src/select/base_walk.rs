@@ -11,8 +11,8 @@ const BASE_WALK_MPS: f64 = 1.2;
 /// Speed that makes a walk as unlike m_sp as a turn rate does, divided by that rate, m.
 const TURN_RADIUS_M: f64 = 1.0;
 
-/// Least share of the cycle with both feet in the air in a run. Jogs: 0.2; brisk walks whose contacts are detected too short: up
-/// to 0.1.
+/// Least share of the cycle with both feet in the air in a run. Jogs: 0.2; brisk walks whose contacts are detected too
+/// short: up to 0.1.
 const FLIGHT_MIN: f64 = 0.15;
 
 /// A cycle that steps, as far as it matters for the choice of m_sp.
@@ -35,8 +35,8 @@ pub(crate) struct BaseWalkCandidate {
 /// 2. straight;
 /// 3. clean feet;
 /// 4. no flight;
-/// 5. least difference from 1.2 m/s, plus the posture penalty. Where none is straight, the rates of the root are to be nearest
-///    to those of a straight walk: a body leans in a circle, and turns its head.
+/// 5. least difference from 1.2 m/s, plus the posture penalty. Where none is straight, the rates of the root are to be
+///    nearest to those of a straight walk: a body leans in a circle, and turns its head.
 pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
     let faults = |walk: &BaseWalkCandidate| {
         let is_run = walk.flight_share > FLIGHT_MIN;

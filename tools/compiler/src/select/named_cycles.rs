@@ -13,7 +13,7 @@ use crate::error::CompileError;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip};
 use crate::select::base_walk::{BaseWalkCandidate, base_walk};
-use crate::select::posture_penalty::{flight_share, posture_penalty_mps};
+use crate::select::posture_penalty::posture_penalty_mps;
 
 /// Period of standing clips in a set without steps, s.
 const STANDING_PERIOD_S: f64 = 1.0;
@@ -156,7 +156,7 @@ fn base_walk_candidates(
                 rates: cycle.rates,
                 is_upright: clips[clip].is_upright_in(steady.window_s),
                 is_doubtful: steady.is_doubtful,
-                flight_share: flight_share(cycle),
+                flight_share: cycle.flight_share(),
                 posture_penalty_mps: posture_penalty_mps(cycle, body),
             };
             Some((WindowId { clip, window }, candidate))

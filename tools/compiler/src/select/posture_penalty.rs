@@ -1,16 +1,15 @@
-//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm. It is a speed, m/s, so that it can be weighed against
-//! the speed of another gait.
+//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm. It is a speed, m/s, so that it can be weighed
+//! against the speed of another gait.
 
-use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::statistics::mean;
 
-use crate::checks::spread_arms::angle_deg;
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
-use crate::rig::roles::ARMS;
+use crate::rig::body_angles::{arms_deg, trunk_lean_deg};
 
-/// Least height of the hips over the ankle of the straighter leg without penalty, leg lengths; mean over the cycle. Walks of the development set: 0.91 to 0.98 straight on, 0.90 in a quick curve.
+/// Least height of the hips over the ankle of the straighter leg without penalty, leg lengths; mean over the cycle.
+/// Walks of the development set: 0.91 to 0.98 straight on, 0.90 in a quick curve.
 const STRAIGHT_LEGS: f64 = 0.9;
 /// Penalty of lower hips, m/s a leg length: hips at 0.86 leg lengths cost 0.6 m/s.
 const BENT_LEGS_MPS: f64 = 15.0;
@@ -29,34 +28,16 @@ pub(crate) fn posture_penalty_mps(cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let mean_of = |value: &dyn Fn(&HumanJoints) -> f64| mean(joints.iter().map(value)).unwrap_or_default();
     let legs = mean_of(&straighter_leg_m) / body.leg_length_m();
-    let bent_mps = BENT_LEGS_MPS * (STRAIGHT_LEGS - legs).max(0.0);
-    let lean_mps = LEAN_MPS * (mean_of(&lean_deg) - LEAN_DEG).max(0.0);
-    let arm_deg = ARMS.map(|arm| mean_of(&|joints| arm_deg(joints, arm))).into_iter().fold(0.0, f64::max);
-    bent_mps + lean_mps + ARM_MPS * (arm_deg - ARM_DEG).max(0.0)
-}
-
-/// Share of a cycle with both feet in the air.
-pub(crate) fn flight_share(cycle: &GaitCycle) -> f64 {
-    let flies = |contacts: &&[f64; 2]| contacts.iter().all(|contact| *contact < 0.5);
-    cycle.contacts.iter().filter(flies).count() as f64 / cycle.contacts.len().max(1) as f64
-}
-
-fn position_m(joints: &HumanJoints, joint: Joint) -> DVec3 {
-    joints.positions_m[joint.index()]
+    let lean_deg = mean_of(&|joints| trunk_lean_deg(|joint| joints.position_m(joint)));
+    let arm_deg = [0, 1].map(|side| mean_of(&|joints| arms_deg(|joint| joints.position_m(joint))[side]));
+    let higher_arm_deg = arm_deg[0].max(arm_deg[1]);
+    BENT_LEGS_MPS * (STRAIGHT_LEGS - legs).max(0.0)
+        + LEAN_MPS * (lean_deg - LEAN_DEG).max(0.0)
+        + ARM_MPS * (higher_arm_deg - ARM_DEG).max(0.0)
 }
 
 /// Height of the hips over the ankle of the straighter leg, m.
 fn straighter_leg_m(joints: &HumanJoints) -> f64 {
-    let height_m = |side: usize| position_m(joints, Joint::THIGHS[side]).z - position_m(joints, Joint::FEET[side]).z;
+    let height_m = |side: usize| joints.position_m(Joint::THIGHS[side]).z - joints.position_m(Joint::FEET[side]).z;
     height_m(0).max(height_m(1))
-}
-
-/// Angle of the trunk off the vertical, degrees.
-fn lean_deg(joints: &HumanJoints) -> f64 {
-    angle_deg(position_m(joints, Joint::Neck) - position_m(joints, Joint::Pelvis), DVec3::Z)
-}
-
-/// Angle of a wrist off straight down, seen from its shoulder, degrees.
-fn arm_deg(joints: &HumanJoints, [shoulder, _, wrist]: [Joint; 3]) -> f64 {
-    angle_deg(position_m(joints, wrist) - position_m(joints, shoulder), DVec3::NEG_Z)
 }

@@ -1,7 +1,8 @@
 //! Transitions: starts, stops, turns, steps and pivots, found in the clips and joined to the examples of the set.
 //!
-//! Enters: the clips on the target body ([`AnalyzedClip`](crate::cycle::analyzed_clip::AnalyzedClip)) with their movements,
-//! and the cycles that became examples. Leaves: [`JoinedAction`](crate::action::joined_action::JoinedAction)s by kind and name.
+//! Enters: the clips on the target body ([`AnalyzedClip`](crate::cycle::analyzed_clip::AnalyzedClip)) with their
+//! movements, and the cycles that became examples. Leaves:
+//! [`JoinedAction`](crate::action::joined_action::JoinedAction)s by kind and name.
 //!
 //! Read `transitions` (the chapter's steps), then `joint_state` with `example_rows`, `root_path`, `recorded_transition`,
 //! `selection`, `unused_corners`. Where transitions may lie in a clip, [`crate::gait`] finds.

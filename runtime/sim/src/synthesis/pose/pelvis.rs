@@ -61,8 +61,9 @@ pub(crate) struct PelvisDrop {
 }
 
 impl PelvisDrop {
-    /// The drop after a step in which `needed_m` is needed in all, and `held_m` by the feet that are held, m. In the first
-    /// step after a switch (`is_new_motion`) the needed drop jumps with the pose, and inertialization carries the jump.
+    /// The drop after a step in which `needed_m` is needed in all, and `held_m` by the feet that are held, m. In the
+    /// first step after a switch (`is_new_motion`) the needed drop jumps with the pose, and inertialization carries the
+    /// jump.
     pub(crate) fn follow(&mut self, [needed_m, held_m]: [f32; 2], is_new_motion: bool, step: &TimeStep) -> f32 {
         if !is_new_motion {
             self.needed_mps = (needed_m - self.needed_m) / step.dt_s;
@@ -225,8 +226,8 @@ mod tests {
         assert!(deepest_m <= DROP_MAX_M, "{deepest_m}");
     }
 
-    /// Greatest vertical acceleration from 0.5 s on of a pelvis whose feet need drops, step by step, m/s²; `held` where the
-    /// feet are held.
+    /// Greatest vertical acceleration from 0.5 s on of a pelvis whose feet need drops, step by step, m/s²; `held` where
+    /// the feet are held.
     fn greatest_mps2(needed_m: impl Fn(usize) -> f32, held: bool) -> f32 {
         let step = TimeStep::new(1.0 / 120.0);
         let mut drop = PelvisDrop::default();
