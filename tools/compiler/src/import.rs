@@ -241,7 +241,7 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     };
     let spread_parts = spread_arms::spread_parts(&clip, &roles, &parameters);
     let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
-    human.spread_parts = spread_parts;
+    (human.spread_parts, human.seems_to_crawl) = (spread_parts, crawls);
     if let Some(head) = &mut human.rig_head {
         (head.rest_up, head.rest_offset) = (rest.up.name(), rest.head_offset);
     }

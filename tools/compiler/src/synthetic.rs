@@ -193,6 +193,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         in_place_mps: None,
         low_parts: Vec::new(),
         spread_parts: Vec::new(),
+        seems_to_crawl: false,
         jumps: Vec::new(),
         unfit: None,
         rig_head: None,

@@ -8,6 +8,7 @@ mod zoo {
     pub(crate) mod rig;
 }
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
@@ -209,6 +210,32 @@ fn a_long_crawl_does_not_hide_a_short_walk() {
     assert_eq!(clip.source.up_axis, "+Y");
     let [(Posture::OnHands, [from_s, to_s])] = low_parts(&clip)[..] else { panic!("{:?}", low_parts(&clip)) };
     assert!((from_s - 5.1).abs() < 0.4 && to_s > 20.0, "{from_s} to {to_s}");
+}
+
+/// A clip of a rig whose rest pose stands along z, though its bodies move with y up.
+fn imported_with_rest_along_z(body: &Performance) -> HumanClip {
+    let turn = DQuat::from_rotation_x(-FRAC_PI_2);
+    let rig = rig::build(body, &tools()[0], &[], Rest::Any, || turn);
+    let text = file::write(body, &rig, &File::plain(100.0, 1.0));
+    import_bytes(Path::new("motion.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+}
+
+#[test]
+fn jumps_and_climbs_are_no_crawls_of_a_rig_that_walks() {
+    let walk = walk();
+    let start = walk.poses[0].hips_m;
+    let raised = |height_m: &dyn Fn(f64) -> f64| {
+        changed(&walk, |pose, _, cycles| pose.hips_m = start + DVec3::Y * height_m(cycles))
+    };
+    let climb = raised(&|cycles| 0.5 * cycles);
+    let jumps = raised(&|cycles| 0.9 * libm::sin(3.0 * cycles).abs());
+    for body in [climb, jumps] {
+        let clips = [&walk, &body].map(imported_with_rest_along_z);
+        assert_eq!(clips.each_ref().map(|clip| clip.seems_to_crawl), [false, true]);
+        let db = compile(clips.to_vec(), &Options::default(), &|_| ()).unwrap();
+        let found: Vec<&Diagnostic> = db.sources.iter().flat_map(|source| &source.diagnostics).collect();
+        assert!(found.contains(&&Diagnostic::NoExample(Unfit::MovesLengthwise)), "{found:?}");
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Clips in which the body lies: alone, such a clip seems to stand along another axis. A rig that walks along one axis in
-//! other clips shows which axis is up.
+//! Clips whose bodies stretch along another axis than the same rig walks upright in other clips. Alone, a body that lies
+//! seems to stand along that axis, and one that jumps or climbs may seem to crawl.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,22 +9,28 @@ use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::retarget::human_clip::HumanClip;
 use crate::rig::rig_head::Rig;
 
-/// Leaves out clips in which the body lies: it neither steps nor moves otherwise, and stretches along none of the axes that
-/// are up where the same rig steps. Their heads say nothing of the rig. A clip whose manifest states `up` stays.
+/// Leaves out clips by the axes that are up where the same rig steps, if none of them is the clip's: a body that neither
+/// steps nor moves otherwise lies; one that seems to crawl jumps or climbs. Their heads say nothing of the rig. A clip
+/// whose manifest states `up` stays.
 pub(crate) fn leave_out_lying(clips: &mut [HumanClip], analyzed: &mut [AnalyzedClip]) {
     let steps = |found: &AnalyzedClip| found.windows.iter().any(|window| window.stepping().is_some());
     let mut up_axes: BTreeMap<(Rig, String), BTreeSet<String>> = BTreeMap::new();
-    for (clip, _) in clips.iter().zip(&*analyzed).filter(|(_, found)| steps(found)) {
+    for (clip, _) in clips.iter().zip(&*analyzed).filter(|(clip, found)| steps(found) && !clip.seems_to_crawl) {
         if let Some(rig) = rig(clip) {
             up_axes.entry(rig).or_default().insert(clip.source.up_axis.clone());
         }
     }
     for (clip, found) in clips.iter_mut().zip(analyzed) {
         let Some(walks) = rig(clip).and_then(|rig| up_axes.get(&rig)) else { continue };
+        if clip.choices.is_up_stated || walks.contains(&clip.source.up_axis) {
+            continue;
+        }
         let is_still = !steps(found) && found.movements.is_empty();
-        if is_still && !clip.choices.is_up_stated && !walks.contains(&clip.source.up_axis) {
-            let walks = walks.iter().cloned().collect();
-            found.leave_out(Unfit::LiesDown { found: clip.source.up_axis.clone(), walks });
+        let lies_down =
+            || Unfit::LiesDown { found: clip.source.up_axis.clone(), walks: walks.iter().cloned().collect() };
+        let reason = if clip.seems_to_crawl { Some(Unfit::MovesLengthwise) } else { is_still.then(lies_down) };
+        if let Some(reason) = reason {
+            found.leave_out(reason);
             clip.rig_head = None;
         }
     }

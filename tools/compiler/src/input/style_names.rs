@@ -3,7 +3,7 @@
 //! 1. File names of published sets: `Angry_FW.bvh` beside other movements of the same style (100STYLE),
 //!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
 //! 2. Folders side by side that are named by known manners of moving, at least two of them. Numbers and words for movements
-//!    may stand beside the manner: `01_elderly`, `Happy Walk`.
+//!    may stand beside the manner: `01_elderly`, `Happy Walk`; other words, where they are the same: `sad_anna`, `happy_anna`.
 //! 3. Folders side by side that each hold a walk, by its name, and are named by words without digits, at least one of
 //!    them by a known manner.
 //!
@@ -244,27 +244,56 @@ struct StyleFolders<'a> {
 
 /// A folder that may hold the clips of one style.
 struct StyleFolder {
-    style: String,
-    /// The style is a known manner of moving.
-    is_manner: bool,
+    name: String,
+    manner: Option<Manner>,
     /// The folder holds a clip that is a walk by its name.
     has_walk: bool,
 }
 
+/// A known manner of moving in the name of a folder.
+struct Manner {
+    style: String,
+    /// The other words: `anna` of `sad_anna`; mostly none.
+    beside: String,
+}
+
 impl StyleFolder {
-    /// A folder by its name: a known manner beside numbers and words for movements, or other words. `None` if the name holds
-    /// a word for people, or is neither a manner nor a word.
-    fn named(name: &str) -> Option<Self> {
-        let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+    /// A folder by its name: one known manner beside numbers and other words, or words alone. `None` if the name holds a word
+    /// for people, or is neither.
+    fn named(name: String) -> Option<Self> {
         if name.split(is_joint).any(|word| PEOPLE.contains(&word)) {
             return None;
         }
+        let manner = Manner::in_name(&name);
+        (manner.is_some() || is_style_word(&name)).then_some(Self { name, manner, has_walk: false })
+    }
+
+    /// The style of a manner that no other words stand beside.
+    fn plain_manner(&self) -> Option<&str> {
+        self.manner.as_ref().filter(|manner| manner.beside.is_empty()).map(|manner| manner.style.as_str())
+    }
+
+    /// The style of a folder with a walk: its plain manner, or its whole name.
+    fn style_of_walk(&self) -> Option<&str> {
+        let of_name = || is_style_word(&self.name).then_some(self.name.as_str());
+        self.plain_manner().or_else(of_name).filter(|_| self.has_walk)
+    }
+}
+
+impl Manner {
+    /// The known manner in a name; none where there are two.
+    fn in_name(name: &str) -> Option<Self> {
+        let has_digit = |word: &str| word.bytes().any(|byte| byte.is_ascii_digit());
         let words: Vec<&str> =
-            name.split(is_joint).filter(|word| !is_number(word) && !MOVEMENTS.contains(word)).collect();
-        let manner = words.join("-");
-        let is_manner = MANNERS.contains(&manner.as_str());
-        let style = if is_manner { manner } else { name.to_owned() };
-        (is_manner || is_style_word(name)).then_some(Self { style, is_manner, has_walk: false })
+            name.split(is_joint).filter(|word| !has_digit(word) && !MOVEMENTS.contains(word)).collect();
+        let is_manner = |word: &str| MANNERS.contains(&word);
+        let whole = words.join("-");
+        if is_manner(&whole) {
+            return Some(Self { style: whole, beside: String::new() });
+        }
+        let (manners, others): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|word| is_manner(word));
+        let [manner] = manners[..] else { return None };
+        Some(Self { style: manner.to_owned(), beside: others.join("-") })
     }
 }
 
@@ -274,20 +303,20 @@ impl<'a> StyleFolders<'a> {
         for path in paths {
             for folder in path.ancestors().skip(1) {
                 let (Some(parent), Some(name)) = (folder.parent(), named(folder)) else { continue };
-                let Some(found) = StyleFolder::named(&name) else { continue };
-                let found = siblings.entry(parent).or_default().entry(folder).or_insert(found);
-                found.has_walk |= is_walk(&without(&stem(path), &name));
+                let is_a_walk = is_walk(&without(&stem(path), &name));
+                let Some(found) = StyleFolder::named(name) else { continue };
+                siblings.entry(parent).or_default().entry(folder).or_insert(found).has_walk |= is_a_walk;
             }
         }
         let mut styles = BTreeMap::new();
         let mut manners = Vec::new();
         for folders in siblings.into_values() {
-            let is_style = styles_among(&folders);
-            for (folder, found) in folders {
-                if is_style(&found) {
-                    styles.insert(folder, found.style);
-                } else if found.is_manner {
-                    manners.push((folder, found.style));
+            let style_of = style_among(&folders);
+            for (folder, found) in &folders {
+                match (style_of(found), found.plain_manner()) {
+                    (Some(style), _) => drop(styles.insert(*folder, style)),
+                    (None, Some(manner)) => manners.push((*folder, manner.to_owned())),
+                    (None, None) => (),
                 }
             }
         }
@@ -303,15 +332,20 @@ impl<'a> StyleFolders<'a> {
     }
 }
 
-/// Which of some folders side by side are styles.
-fn styles_among(folders: &BTreeMap<&Path, StyleFolder>) -> impl Fn(&StyleFolder) -> bool + use<> {
-    let count = |counts: &dyn Fn(&StyleFolder) -> bool| {
-        let styles = folders.values().filter(|found| counts(found)).map(|found| &found.style);
-        styles.collect::<BTreeSet<&String>>().len()
-    };
-    let are_manners = count(&|found| found.is_manner) > 1;
-    let have_walks = count(&|found| found.has_walk) > 1 && count(&|found| found.has_walk && found.is_manner) > 0;
-    move |found| are_manners && found.is_manner || have_walks && found.has_walk
+/// The style of each of some folders side by side, where it is one: of two manners beside the same words, or of a walk
+/// beside another style's walk.
+fn style_among(folders: &BTreeMap<&Path, StyleFolder>) -> impl Fn(&StyleFolder) -> Option<String> + use<> {
+    let mut beside: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for manner in folders.values().filter_map(|found| found.manner.as_ref()) {
+        beside.entry(manner.beside.clone()).or_default().insert(manner.style.clone());
+    }
+    let have_walks = folders.values().filter_map(StyleFolder::style_of_walk).collect::<BTreeSet<&str>>().len() > 1
+        && folders.values().any(|found| found.has_walk && found.plain_manner().is_some());
+    move |found| {
+        let manner = found.manner.as_ref().filter(|manner| beside[&manner.beside].len() > 1);
+        let of_walk = || found.style_of_walk().filter(|_| have_walks);
+        manner.map(|manner| manner.style.as_str()).or_else(of_walk).map(str::to_owned)
+    }
 }
 
 /// The name of a folder, in lower case.
@@ -389,9 +423,19 @@ mod tests {
         check(&[("01_elderly/a.bvh", "elderly"), ("02_happy/a.bvh", "happy"), ("03/a.bvh", "")]);
         check(&[("Elderly Walk/a.bvh", "elderly"), ("Not Confident/a.bvh", "not-confident")]);
         check(&[("01_elderly/walk.bvh", ""), ("02_elderly/walk.bvh", "")]);
+        check(&[("s1_sad/a.bvh", "sad"), ("s2_happy/a.bvh", "happy")]);
         check(&[("Old Man/a.bvh", ""), ("Young Woman/a.bvh", "")]);
         check(&[("anna/angry/a.bvh", "angry"), ("anna/happy/a.bvh", "happy"), ("bob/angry/a.bvh", "angry")]);
         check(&[("men/elderly/a.bvh", "elderly"), ("women/elderly/a.bvh", "elderly"), ("men/happy/a.bvh", "happy")]);
+    }
+
+    #[test]
+    fn folders_of_two_manners_of_one_person_are_styles() {
+        check(&[("sad_anna/a.bvh", "sad"), ("happy anna/a.bvh", "happy"), ("sad_bob/a.bvh", "")]);
+        check(&[("anna-sad/walk.bvh", "sad"), ("anna-happy/walk.bvh", "happy"), ("anna/walk.bvh", "")]);
+        check(&[("old_project/a.bvh", ""), ("active_archive/a.bvh", "")]);
+        check(&[("sad_happy_anna/a.bvh", ""), ("happy_anna/a.bvh", "")]);
+        check(&[("old/walk.bvh", "old"), ("very_old/walk.bvh", "very_old"), ("happy/walk.bvh", "happy")]);
     }
 
     #[test]

@@ -42,6 +42,8 @@ pub struct HumanClip {
     pub spread_parts: Vec<Range<usize>>,
     /// Frames in which the pose jumps, in order of time.
     pub jumps: Vec<Range<usize>>,
+    /// Whether the body moves along its length, as in a crawl if the rest pose shows which axis is up.
+    pub seems_to_crawl: bool,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
     /// The rig, and the offset of its head as the clip alone shows it; none of a clip that is made.

@@ -82,6 +82,7 @@ pub(crate) fn to_human(
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
         low_parts,
         spread_parts: Vec::new(),
+        seems_to_crawl: false,
         jumps: Vec::new(),
         unfit: None,
         rig_head: Some(rig_head),
