@@ -149,6 +149,14 @@ pub enum Note {
         /// Number of further such parts.
         more: u32,
     },
+    /// Some steady windows of the clip give no example, since another one of nearly the same velocity holds trunk and arms
+    /// otherwise.
+    CarriageLeftOut {
+        /// Number of these windows.
+        windows: u32,
+        /// First and last second of the longest.
+        longest_s: [f32; 2],
+    },
 }
 
 impl Note {
@@ -175,6 +183,7 @@ impl Note {
             Self::JointsLeftOut { .. } => "joints_left_out",
             Self::HeldPoseCut { .. } => "held_pose_cut",
             Self::OnlyTransitionsUsed { .. } => "only_transitions_used",
+            Self::CarriageLeftOut { .. } => "carriage_left_out",
             Self::RestsLeftOut { .. } => "rests_left_out",
         }
     }
@@ -219,6 +228,13 @@ impl fmt::Display for Note {
                 write!(out, "the clip gives transitions, but no example of a gait: {reason}")
             }
             Self::RestsLeftOut { longest_s, reason, more } => rests_left_out(out, *longest_s, reason, *more),
+            Self::CarriageLeftOut { windows, longest_s: [first_s, last_s] } => write!(
+                out,
+                "left out: {}, in which trunk or arms are held otherwise than in an example of nearly the same velocity; the \
+                 longest lasts from {first_s:.1} s to {last_s:.1} s. To use them, cut them out by `frames` in a manifest.toml \
+                 and give them a `style`",
+                steady_windows(*windows)
+            ),
             Self::SameTake { other, mirrored, windows_left_out } => {
                 write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))
             }

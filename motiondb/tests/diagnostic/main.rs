@@ -62,6 +62,7 @@ const NUMBERED: [&[&str]; 3] = [
         "held_pose_cut",
         "only_transitions_used",
         "rests_left_out",
+        "carriage_left_out",
     ],
     &[
         "inhuman_size",

@@ -116,5 +116,11 @@ pub(crate) fn notes() -> Vec<(Note, &'static str)> {
             "from 2.0 s to 3.5 s the body walks and turns by 90° to the right (60 °/s); no example and no transition shows \
              this, nor 2 further turns",
         ),
+        (
+            Note::CarriageLeftOut { windows: 2, longest_s: [8.2, 12.13] },
+            "left out: 2 steady windows, in which trunk or arms are held otherwise than in an example of nearly the same \
+             velocity; the longest lasts from 8.2 s to 12.1 s. To use them, cut them out by `frames` in a manifest.toml and \
+             give them a `style`",
+        ),
     ]
 }

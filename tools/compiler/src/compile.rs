@@ -239,7 +239,7 @@ impl TargetedClips {
 
 /// The analysis of a clip, see [`TargetedClips::analyzed`].
 fn analyzed(clip: &mut HumanClip, body: &HumanBody) -> AnalyzedClip {
-    best_windows(AnalyzedClip::of(clip, body)).keep_needed()
+    best_windows(AnalyzedClip::of(clip, body), body).keep_needed()
 }
 
 /// The database, if it holds every invariant.

@@ -62,6 +62,10 @@ pub(crate) struct LeftOutWindows {
     pub(crate) doubtful: usize,
     /// Windows near-equal to one that is as good or better.
     pub(crate) near_equal: usize,
+    /// Windows near-equal to a better one, in which trunk or arms are held otherwise.
+    pub(crate) other_carriage: usize,
+    /// First and last second of the longest of these.
+    longest_of_other_carriage_s: [f64; 2],
 }
 
 impl AnalyzedClip {
@@ -119,7 +123,7 @@ impl AnalyzedClip {
             return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
-        let left_out = LeftOutWindows { doubtful, near_equal: 0 };
+        let left_out = LeftOutWindows { doubtful, ..LeftOutWindows::default() };
         let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out);
         let diagnostics = notes.map(Diagnostic::Note).collect();
         Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
@@ -182,15 +186,29 @@ impl AnalyzedClip {
             let of_window = |found: Diagnostic| if index == 0 { found } else { found.with_example_start_s(start_s) };
             diagnostics.extend(window.diagnostics.iter().cloned().map(of_window));
         }
-        diagnostics.extend(self.left_out.note().map(Diagnostic::Note));
+        diagnostics.extend(self.left_out.notes().map(Diagnostic::Note));
         record
     }
 }
 
 impl LeftOutWindows {
-    fn note(&self) -> Option<Note> {
-        let [near_equal, doubtful] = [self.near_equal, self.doubtful].map(|count| count as u32);
-        (near_equal + doubtful > 0).then_some(Note::WindowsLeftOut { near_equal, doubtful })
+    /// Counts windows in which trunk or arms are held otherwise than in a better one.
+    pub(crate) fn add_of_other_carriage(&mut self, windows: &[SteadyCycle]) {
+        self.other_carriage += windows.len();
+        let duration_s = |[first_s, last_s]: [f64; 2]| last_s - first_s;
+        for window in windows {
+            if duration_s(window.window_s) > duration_s(self.longest_of_other_carriage_s) {
+                self.longest_of_other_carriage_s = window.window_s;
+            }
+        }
+    }
+
+    fn notes(&self) -> impl Iterator<Item = Note> {
+        let [near_equal, doubtful, windows] =
+            [self.near_equal, self.doubtful, self.other_carriage].map(|count| count as u32);
+        let plain = (near_equal + doubtful > 0).then_some(Note::WindowsLeftOut { near_equal, doubtful });
+        let longest_s = self.longest_of_other_carriage_s.map(|time_s| time_s as f32);
+        plain.into_iter().chain((windows > 0).then_some(Note::CarriageLeftOut { windows, longest_s }))
     }
 }
 

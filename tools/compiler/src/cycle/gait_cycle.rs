@@ -1,10 +1,14 @@
 //! One closed cycle of a gait, sampled at 64 uniform phases: what an example is made of.
 
+use glam::DVec3;
+use motiondb::body::Joint;
 use motiondb::motion::PhaseMap;
 use serde::{Deserialize, Serialize};
 
 use crate::ground::root_arc::Rates;
-use crate::retarget::human_clip::HumanPose;
+use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
+use crate::rig::carriage::Carriage;
+use crate::rig::roles::ARMS;
 
 /// One closed cycle; phase 0 is right mid-stance. Root frame: x forward, y left, z up, metres.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -26,5 +30,18 @@ impl GaitCycle {
     pub(crate) fn flight_share(&self) -> f64 {
         let flies = |contacts: &&[f64; 2]| contacts.iter().all(|contact| *contact < 0.5);
         self.contacts.iter().filter(flies).count() as f64 / self.contacts.len().max(1) as f64
+    }
+
+    /// The mean carriage over the cycle.
+    pub(crate) fn carriage(&self, body: &HumanBody) -> Carriage {
+        let joints: Vec<HumanJoints> = self.rows.iter().map(|pose| pose.forward_kinematics(body)).collect();
+        let mean = |[from, to]: [Joint; 2]| {
+            let direction =
+                |joints: &HumanJoints| (joints.position_m(to) - joints.position_m(from)).normalize_or_zero();
+            joints.iter().map(direction).sum::<DVec3>().as_vec3()
+        };
+        let bone = |part: usize, side: usize| mean([ARMS[side][part], ARMS[side][part + 1]]);
+        let arms = [bone(0, 0), bone(0, 1), bone(1, 0), bone(1, 1)];
+        Carriage { arms, trunk: mean([Joint::Pelvis, Joint::Neck]) }
     }
 }

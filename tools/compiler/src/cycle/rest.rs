@@ -9,6 +9,7 @@ use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
 use crate::checks::spread_arms::{ARMS_OUT_DEG, ARMS_UP_DEG};
+use crate::gait::body_track::chord_frames;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
@@ -47,9 +48,9 @@ impl Rest {
         let joints_at = |frame: usize| clip.pose(frame).forward_kinematics(body);
         let joints: Vec<HumanJoints> = frames.clone().step_by(step).map(joints_at).collect();
         let mean_of = |value: &dyn Fn(&HumanJoints) -> f64| mean(joints.iter().map(value)).unwrap_or_default();
-        let inner = frames.start..frames.end.saturating_sub(1);
-        let step_m = |frame: usize| joints_at(frame).mean_distance_m(&joints_at(frame + 1));
-        let steps_m = inner.step_by(step).map(step_m);
+        let chord = chord_frames(clip.frame_rate_hz).min(frames.len() - 1);
+        let chord_m = |frame: usize| joints_at(frame).mean_distance_m(&joints_at(frame + chord));
+        let chords_m = (frames.start..frames.end - chord).step_by(step).map(chord_m);
         Self {
             duration_s: (frames.len() - 1) as f64 / clip.frame_rate_hz,
             arms_raised: mean_of(&arms_raised),
@@ -59,7 +60,7 @@ impl Rest {
                 arms_deg(|joint| joints.position_m(joint)).into_iter().fold(0.0, f64::max)
             }),
             lean_deg: mean_of(&|joints| trunk_lean_deg(|joint| joints.position_m(joint))),
-            joint_speed_mps: mean(steps_m).unwrap_or_default() * clip.frame_rate_hz,
+            joint_speed_mps: mean(chords_m).unwrap_or_default() * clip.frame_rate_hz / chord.max(1) as f64,
         }
     }
 

@@ -3,7 +3,7 @@
 //! 1. Lay one clip over the other, as it is and mirrored, at each lag in rows ([`signature`]) that covers most of the
 //!    shorter clip; then between the rows about the best lag.
 //! 2. Two clips are one take where their unlikeness r ([`crate::dedup::correlation`]) is small, both turn alike, and
-//!    both hold their arms alike: r shows neither a steady turn nor how a limb is held.
+//!    both carry trunk and arms alike: r shows neither a steady turn nor how a limb is held.
 //!
 //! Over all pairs of 149 clips of 14 sources, retargeted copies have r up to 0.19 (a run of 1.4 s, CMU 02_03, on two
 //! skeletons). The nearest different takes are a left turn and a mirrored right turn of one performer (0.275).
@@ -24,13 +24,13 @@ const UNLIKENESS_MAX: f64 = 0.21;
 const UNLIKENESS_OF_ROWS_MAX: f32 = 0.45;
 /// Overlap below which the greatest r shrinks in proportion, s: about a stride is alike for many performers.
 const FULL_LIMIT_OVERLAP_S: f64 = 1.2;
+/// Greatest r of a mirror image over that of the clip as it is: a symmetric walk is its own mirror image, half a stride
+/// later.
+const MIRROR_SHARE_MAX: f64 = 0.7;
 /// Greatest difference of the turn rates of one take, rad/s: 3 °/s, below which turning is gait noise.
 const TURN_DIFFERENCE_RAD_S: f64 = 3.0 * PI / 180.0;
 /// Greatest difference of the turns over a short overlap, rad: 15°, the sway of less than two strides.
 const TURN_DIFFERENCE_RAD: f64 = 15.0 * PI / 180.0;
-/// Greatest angle between the mean directions of an arm's bone in one take, rad: 35°. Copies reach 19; an edit that
-/// bends elbows or crosses arms makes another motion of the same steps.
-const ARMS_APART_MAX_RAD: f32 = 35.0 * std::f32::consts::PI / 180.0;
 /// Number of lags tried between two rows: steps of 1/120 s.
 const LAGS_PER_ROW: i32 = 6;
 /// Frames of one clip per frame of the other that are tried where the frame counts fit and the frame times do not.
@@ -94,9 +94,10 @@ pub(crate) fn compare(better: &ComparedClip, other: &ComparedClip) -> Option<Mat
     stated.into_iter().chain(retimed).min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
 }
 
-/// The better match of a clip, as it is and mirrored. `pace`: seconds of the first clip per second of the other.
+/// The better match of a clip, as it is or mirrored. `pace`: seconds of the first clip per second of the other.
 fn best_overlay(one: &Series, others: &[Series; 2], pace: f64) -> Option<Match> {
-    let overlays = others.iter().zip([false, true]).filter_map(|(other, mirrored)| {
+    let overlay = |mirrored: bool| {
+        let other = &others[usize::from(mirrored)];
         let (unlikeness, lag) = match one.rows.len() < other.rows.len() {
             true => nearest_lag(one, other).map(|(unlikeness, lag)| (unlikeness, -lag))?,
             false => nearest_lag(other, one)?,
@@ -104,8 +105,11 @@ fn best_overlay(one: &Series, others: &[Series; 2], pace: f64) -> Option<Match> 
         // The series of the slower clip was sampled at `pace` times the rate.
         let start_s = lag / RATE_HZ * pace.max(1.0);
         Some(Match { alignment: Alignment { mirrored, start_s, pace }, unlikeness })
-    });
-    overlays.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
+    };
+    match (overlay(false), overlay(true)) {
+        (Some(as_it_is), Some(mirror)) if mirror.unlikeness >= MIRROR_SHARE_MAX * as_it_is.unlikeness => Some(as_it_is),
+        (as_it_is, mirror) => mirror.or(as_it_is),
+    }
 }
 
 /// r of a shorter clip on a longer one, and the row of the longer clip at which the shorter begins; `None` where they
@@ -121,7 +125,7 @@ fn nearest_lag(shorter: &Series, longer: &Series) -> Option<(f64, f64)> {
     let [from, longer_from] = [(-lag).max(0) as usize, lag.max(0) as usize];
     let count = (shorter.rows.len() - from).min(longer.rows.len() - longer_from);
     let (a, b) = (&shorter.rows[from..from + count], &longer.rows[longer_from..longer_from + count]);
-    if !turn_alike(a, b) || !arms_are_alike(shorter.mean_of(from, count), longer.mean_of(longer_from, count)) {
+    if !turn_alike(a, b) || !carried_alike(shorter.mean_of(from, count), longer.mean_of(longer_from, count)) {
         return None;
     }
     let (unlikeness, later) = nearest_between_rows(a, b)?;
@@ -143,13 +147,10 @@ fn nearest_between_rows(a: &[Row], b: &[Row]) -> Option<(f64, f64)> {
     found.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether the mean directions of upper arms and forearms are alike. Retimed series have no mean; arms are not compared
-/// there.
-fn arms_are_alike(a: Option<Row>, b: Option<Row>) -> bool {
+/// Whether both bodies carry trunk and arms alike. Retimed series have no mean; carriages are not compared there.
+fn carried_alike(a: Option<Row>, b: Option<Row>) -> bool {
     let Some((a, b)) = a.zip(b) else { return true };
-    let pairs = signature::arms(&a).into_iter().zip(signature::arms(&b));
-    // The maximum ignores a bone without length, whose angle is no number.
-    pairs.map(|(a, b)| a.angle_between(b)).fold(0.0, f32::max) <= ARMS_APART_MAX_RAD
+    signature::carriage(&a).is_like(&signature::carriage(&b))
 }
 
 /// Whether the facings turn alike: slope of their difference by least squares.

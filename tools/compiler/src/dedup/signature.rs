@@ -13,6 +13,7 @@ use glam::{DQuat, DVec3, Vec3};
 use motiondb::body::Joint;
 
 use crate::retarget::human_clip::{HumanBody, HumanClip, HumanPose};
+use crate::rig::carriage::Carriage;
 
 /// Rows a second.
 pub(crate) const RATE_HZ: f64 = 20.0;
@@ -30,6 +31,8 @@ pub(crate) const WIDTH: usize = FOREARMS + 3 * 2;
 const POINTS_PER_ROW: usize = 6;
 /// Index of the left upper arm among the directions; the right one follows.
 const UPPER_ARM: usize = 4;
+/// Index of the trunk among the directions.
+const TRUNK: usize = 6;
 /// Joints that each direction points from and to, left before right. The eighth direction is the head's forward axis.
 const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::LeftThigh, Joint::LeftShank],
@@ -77,12 +80,12 @@ pub(crate) fn mirrored(rows: &[Row]) -> Vec<Row> {
     rows.iter().map(|row| std::array::from_fn(|at| value(row, at))).collect()
 }
 
-/// Directions of both upper arms and both forearms.
-pub(crate) fn arms(row: &Row) -> [Vec3; 4] {
+/// The carriage that a mean row shows.
+pub(crate) fn carriage(row: &Row) -> Carriage {
     let vector = |first: usize, count: usize| Vec3::from_array([0, 1, 2].map(|axis| row[first + axis * count]));
     let upper_arm = |side: usize| vector(UPPER_ARM + side, DIRECTION_COUNT);
     let forearm = |side: usize| vector(FOREARMS + side, 2);
-    [upper_arm(0), upper_arm(1), forearm(0), forearm(1)]
+    Carriage { arms: [upper_arm(0), upper_arm(1), forearm(0), forearm(1)], trunk: vector(TRUNK, DIRECTION_COUNT) }
 }
 
 /// Interpolates between each two rows; `share` 0 gives the first, 1 the second.

@@ -2,6 +2,7 @@
 //!
 //! World frame: metres, seconds, radians, Z up; one value a frame.
 
+use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -12,13 +13,16 @@ use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::RootSample;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
+/// Span of the chords by which the length of a joint's path is taken, s: the noise of a capture is no path.
+const CHORD_S: f64 = 0.2;
+
 /// Positions of a body over a clip.
 pub(crate) struct BodyTrack<'a> {
     clip: &'a GroundedClip<'a>,
     body: &'a HumanBody,
     /// Frames per second.
     pub(crate) frame_rate_hz: f64,
-    /// Length of the joints' paths up to each frame, mean over the joints, m.
+    /// Length of the joints' paths up to each frame, by their chords, mean over the joints, m.
     pub(crate) joint_path_m: Vec<f64>,
     /// Midpoint of the hips on the ground at each frame, m.
     pub(crate) hips_m: Vec<DVec2>,
@@ -37,25 +41,34 @@ pub(crate) struct BodyPath {
     pub(crate) facing_rad: Vec<f64>,
 }
 
+/// Number of frames over which the length of a joint's path is taken: its chord over [`CHORD_S`].
+pub(crate) fn chord_frames(frame_rate_hz: f64) -> usize {
+    (libm::round(CHORD_S * frame_rate_hz) as usize).max(1)
+}
+
 impl<'a> BodyTrack<'a> {
     /// The track of a clip. `see` gets the joints of each frame; they are not kept.
     pub(crate) fn of(clip: &'a GroundedClip<'a>, body: &'a HumanBody, mut see: impl FnMut(&HumanJoints)) -> Self {
         let frame_rate_hz = clip.frame_rate_hz;
         let (joint_path_m, hips_m, facing_rad, ankles_m) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut track = Self { clip, body, frame_rate_hz, joint_path_m, hips_m, facing_rad, ankles_m };
-        let mut before: Option<HumanJoints> = None;
+        let chord_frames = chord_frames(frame_rate_hz);
+        let mut before: VecDeque<HumanJoints> = VecDeque::with_capacity(chord_frames);
         for frame in 0..clip.frame_count() {
             let joints = track.joints(frame);
             see(&joints);
-            track.push(&joints, before.as_ref());
-            before = Some(joints);
+            track.push(&joints, &before);
+            if before.len() == chord_frames {
+                before.pop_front();
+            }
+            before.push_back(joints);
         }
         track
     }
 
-    /// Appends a frame; `before` are the joints of the frame before.
-    fn push(&mut self, joints: &HumanJoints, before: Option<&HumanJoints>) {
-        let step_m = before.map_or(0.0, |before| before.mean_distance_m(joints));
+    /// Appends a frame; `before` are the joints of the frames before, from the start of the chord on.
+    fn push(&mut self, joints: &HumanJoints, before: &VecDeque<HumanJoints>) {
+        let step_m = before.front().map_or(0.0, |first| first.mean_distance_m(joints) / before.len() as f64);
         let facing_rad = joints.facing_rad();
         let jump_rad = self.facing_rad.last().map_or(0.0, |last_rad| facing_rad - last_rad);
         self.joint_path_m.push(self.joint_path_m.last().map_or(0.0, |path_m| path_m + step_m));

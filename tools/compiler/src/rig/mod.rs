@@ -5,10 +5,11 @@
 //! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
 //! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
 //! characters), `surplus_legs` (bodies with more than two legs), `rig_head` (what the clips of one rig share)
-//! and `rest_pose`. `body_angles` measures trunk and arms by their roles.
+//! and `rest_pose`. `body_angles` measures trunk and arms by their roles, `carriage` compares them.
 
 pub(crate) mod body_angles;
 mod body_plan;
+pub(crate) mod carriage;
 pub(crate) mod joint_names;
 mod limb;
 pub(crate) mod rest_pose;

@@ -1,9 +1,11 @@
 //! AnalyzedClip → which of its steady windows become examples: of near-equal windows the best.
 //!
-//! 1. Among the windows of one clip that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]), the one with
-//!    the fewest flaws stays ([`crate::cycle::flaws`]). The longest of the rest always stays as the clip's own
-//!    example: the user gave the clip.
-//! 2. Every further window must add to the set: by its flaws, the best first, a window stays that is near-equal to no
+//! 1. Of the windows of one clip that are near-equal and in which trunk or arms are held otherwise ([`Carriage`]), one
+//!    carriage stays: by flaws, posture penalty ([`posture_penalty_mps`]) and duration.
+//! 2. Among those that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]), the one with the fewest flaws
+//!    stays ([`crate::cycle::flaws`]). The longest of the rest always stays as the clip's own example: the user gave
+//!    the clip.
+//! 3. Every further window must add to the set: by its flaws, the best first, a window stays that is near-equal to no
 //!    example so far.
 
 use glam::DVec3;
@@ -11,16 +13,23 @@ use glam::DVec3;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::rate_cells;
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
+use crate::retarget::human_clip::HumanBody;
+use crate::rig::carriage::Carriage;
+use crate::select::posture_penalty::posture_penalty_mps;
+
+/// Posture penalty as bad as a flaw of 1, m/s: the width of a cell.
+const PENALTY_MPS: f64 = 0.25;
 
 /// Keeps the first window of a clip and of the others those that are beyond doubt; of each cell the best. They stay in
 /// their order, the longest first.
-pub(crate) fn best_windows(mut clip: AnalyzedClip) -> AnalyzedClip {
-    let windows = &mut clip.windows;
-    let found = windows.len();
+pub(crate) fn best_windows(mut clip: AnalyzedClip, body: &HumanBody) -> AnalyzedClip {
+    let found = clip.windows.len();
     let mut index = 0..;
-    windows.retain(|window| index.next() == Some(0) || !window.is_doubtful);
+    clip.windows.retain(|window| index.next() == Some(0) || !window.is_doubtful);
+    clip.left_out.doubtful += found - clip.windows.len();
+    leave_out_other_carriages(&mut clip, body);
+    let windows = &mut clip.windows;
     let clean = windows.len();
-    let cell = |window: &SteadyCycle| (is_standing(window), rate_cells::cell_middle(&window.rates()));
     let cells: Vec<(bool, DVec3)> = windows.iter().map(cell).collect();
     let flaws: Vec<f64> = windows.iter().map(|window| window.flaws).collect();
     let is_best = |index: usize| {
@@ -29,9 +38,48 @@ pub(crate) fn best_windows(mut clip: AnalyzedClip) -> AnalyzedClip {
     };
     let mut index = 0..;
     windows.retain(|_| index.next().is_some_and(is_best));
-    clip.left_out.doubtful += found - clean;
     clip.left_out.near_equal += clean - windows.len();
     clip
+}
+
+/// Drops, and counts, the windows of a clip that step as another one does, but with another carriage.
+fn leave_out_other_carriages(clip: &mut AnalyzedClip, body: &HumanBody) {
+    let windows = &clip.windows;
+    let carriages: Vec<Option<Carriage>> =
+        windows.iter().map(|window| window.stepping().map(|cycle| cycle.carriage(body))).collect();
+    let differ = |a: usize, b: usize| {
+        let is_near = are_near_equal(&windows[a], &windows[b]) || cell(&windows[a]) == cell(&windows[b]);
+        is_near && carriages[a].zip(carriages[b]).is_some_and(|(a, b)| !a.is_like(&b))
+    };
+    if !(0..windows.len()).any(|a| (0..a).any(|b| differ(a, b))) {
+        return;
+    }
+    let duration_s = |index: usize| windows[index].window_s[1] - windows[index].window_s[0];
+    let near = |index: usize| {
+        (0..windows.len()).filter(move |&other| other == index || are_near_equal(&windows[index], &windows[other]))
+    };
+    let badness = |index: usize| {
+        let penalty_mps = windows[index].stepping().map_or(0.0, |cycle| posture_penalty_mps(cycle, body));
+        let unlike_s: f64 = near(index).filter(|&other| differ(index, other)).map(duration_s).sum();
+        let all_s: f64 = near(index).map(duration_s).sum();
+        windows[index].flaws + penalty_mps / PENALTY_MPS + unlike_s / all_s
+    };
+    let badness: Vec<f64> = (0..windows.len()).map(badness).collect();
+    let mut order: Vec<usize> = (0..windows.len()).collect();
+    order.sort_by(|a, b| badness[*a].total_cmp(&badness[*b]));
+    let mut kept: Vec<usize> = Vec::new();
+    for index in order {
+        if !kept.iter().any(|&better| differ(better, index)) {
+            kept.push(index);
+        }
+    }
+    kept.sort_unstable();
+    let mut index = 0..;
+    let (kept, left_out) = std::mem::take(&mut clip.windows)
+        .into_iter()
+        .partition(|_| index.next().is_some_and(|index: usize| kept.binary_search(&index).is_ok()));
+    clip.windows = kept;
+    clip.left_out.add_of_other_carriage(&left_out);
 }
 
 /// Drops, and counts, the windows of all clips that add nothing to the set.
@@ -57,6 +105,11 @@ pub(crate) fn windows_that_add(mut clips: Vec<AnalyzedClip>) -> Vec<AnalyzedClip
     clips
 }
 
+/// Whether a window stands, and the middle of its cell.
+fn cell(window: &SteadyCycle) -> (bool, DVec3) {
+    (is_standing(window), rate_cells::cell_middle(&window.rates()))
+}
+
 fn is_standing(window: &SteadyCycle) -> bool {
     matches!(window.motion, SteadyMotion::Stands(_))
 }
@@ -67,6 +120,8 @@ fn are_near_equal(a: &SteadyCycle, b: &SteadyCycle) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
+    use motiondb::body::Joint;
     use motiondb::diagnostic::{Diagnostic, Note};
     use motiondb::motion::MotionExample;
 
@@ -121,6 +176,33 @@ mod tests {
             assert!(straight[0].planted_slide_cm_s < 2.0, "{straight:?}");
             let left_out = Diagnostic::Note(Note::WindowsLeftOut { near_equal: 1, doubtful: 0 });
             assert!(db.sources[0].diagnostics.contains(&left_out), "{:?}", db.sources);
+        }
+    }
+
+    #[test]
+    fn of_near_equal_windows_the_plain_carriage_stays() {
+        let raised = |mut clip: HumanClip| {
+            for pose in &mut clip.frames {
+                for arm in [Joint::LeftUpperArm, Joint::RightUpperArm] {
+                    let arm = &mut pose.rotations[arm.index()];
+                    *arm = DQuat::from_rotation_y(-2.5) * *arm;
+                }
+            }
+            clip
+        };
+        let (plain, between) = (part(1.2, 0.0, 4.0), part(0.7, 0.9, 4.0));
+        for others_mps in [1.2, 1.15, 1.08] {
+            let other = raised(part(others_mps, 0.0, 6.0));
+            for parts in [[plain.clone(), between.clone(), other.clone()], [other, between.clone(), plain.clone()]] {
+                let db = database_of(vec![performance("capture", &parts)], 0);
+                let straight: Vec<_> =
+                    recorded(&db).into_iter().filter(|e| e.parameters.turn_rate_rad_s == 0.0).collect();
+                assert_eq!(straight.len(), 1, "{straight:#?}");
+                assert!((straight[0].parameters.speed_mps - 1.2).abs() < 0.02, "{straight:?}");
+                let is_note =
+                    |found: &Diagnostic| matches!(found, Diagnostic::Note(Note::CarriageLeftOut { windows: 1, .. }));
+                assert!(db.sources[0].diagnostics.iter().any(is_note), "{:?}", db.sources);
+            }
         }
     }
 

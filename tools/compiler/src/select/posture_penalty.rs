@@ -1,4 +1,4 @@
-//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm. It is a speed, m/s, so that it can be weighed
+//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm, arms that carry. It is a speed, m/s, so that it can be weighed
 //! against the speed of another gait.
 
 use motiondb::body::Joint;
@@ -22,8 +22,11 @@ const LEAN_MPS: f64 = 0.03;
 const ARM_DEG: f64 = 60.0;
 /// Penalty of a higher arm, m/s a degree: a level arm costs 0.3 m/s.
 const ARM_MPS: f64 = 0.01;
+/// Penalty of arms and trunk that are held, m/s for an effort of 1 ([`Carriage::effort`](crate::rig::carriage::Carriage)):
+/// a body that carries a box loses to one that walks, at equal speed.
+const EFFORT_MPS: f64 = 0.2;
 
-/// The posture penalty of a gait, m/s; 0 for a body that walks upright with hanging arms.
+/// The posture penalty of a gait, m/s; near 0 for a body that walks upright with hanging arms.
 pub(crate) fn posture_penalty_mps(cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let mean_of = |value: &dyn Fn(&HumanJoints) -> f64| mean(joints.iter().map(value)).unwrap_or_default();
@@ -34,6 +37,7 @@ pub(crate) fn posture_penalty_mps(cycle: &GaitCycle, body: &HumanBody) -> f64 {
     BENT_LEGS_MPS * (STRAIGHT_LEGS - legs).max(0.0)
         + LEAN_MPS * (lean_deg - LEAN_DEG).max(0.0)
         + ARM_MPS * (higher_arm_deg - ARM_DEG).max(0.0)
+        + EFFORT_MPS * cycle.carriage(body).effort()
 }
 
 /// Height of the hips over the ankle of the straighter leg, m.
