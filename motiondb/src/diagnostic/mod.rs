@@ -87,7 +87,12 @@ impl Diagnostic {
     #[must_use]
     pub fn with_example_start_s(mut self, start_s: f32) -> Self {
         if let Self::Note(Note::TurnRateSnapped { from_s, .. } | Note::StrafeSnapped { from_s, .. })
-        | Self::Warning(Warning::FeetSlide { from_s, .. } | Warning::FeetHardlyPlanted { from_s, .. }) = &mut self
+        | Self::Warning(
+            Warning::FeetSlide { from_s, .. }
+            | Warning::FeetHardlyPlanted { from_s, .. }
+            | Warning::LeansAside { from_s, .. }
+            | Warning::TrunkBent { from_s, .. },
+        ) = &mut self
         {
             *from_s = Some(start_s);
         }

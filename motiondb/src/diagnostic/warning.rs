@@ -154,6 +154,30 @@ pub enum Warning {
         /// Frame rate that is used, Hz.
         frame_rate_hz: f32,
     },
+    /// The whole body leans to a side while it goes straight on, as on ground that is tilted.
+    LeansAside {
+        /// Mean angle from ankles to neck, degrees; positive to the left.
+        lean_deg: f32,
+        /// Start of the example, s; `None` for the clip's first.
+        from_s: Option<f32>,
+    },
+    /// The body walks with its trunk bent.
+    TrunkBent {
+        /// Mean angle of the trunk off the vertical, degrees.
+        lean_deg: f32,
+        /// Start of the example, s; `None` for the clip's first.
+        from_s: Option<f32>,
+    },
+    /// The frame rate differs from that of the rig's other clips, with which the steps would be usual. If it is wrong, so
+    /// are all speeds.
+    RareFrameRate {
+        /// Frame rate that is used, Hz.
+        frame_rate_hz: f32,
+        /// Frame rate of the other clips, Hz.
+        usual_hz: f32,
+        /// Steps a minute at either rate.
+        steps_per_min: [f32; 2],
+    },
 }
 
 impl Warning {
@@ -182,6 +206,9 @@ impl Warning {
             Self::RadiansLikely { .. } => "radians_likely",
             Self::PoseFrozen => "pose_frozen",
             Self::QuickMotion { .. } => "quick_motion",
+            Self::LeansAside { .. } => "leans_aside",
+            Self::TrunkBent { .. } => "trunk_bent",
+            Self::RareFrameRate { .. } => "rare_frame_rate",
         }
     }
 }
@@ -268,6 +295,24 @@ impl fmt::Display for Warning {
             Self::PoseFrozen => out.write_str(
                 "all frames hold the same pose, so a body that stands in it does not move at all; use a clip of a body \
                  that stands at ease",
+            ),
+            Self::LeansAside { lean_deg, from_s } => write!(
+                out,
+                "the whole body leans by {:.0}° to the {}{}, although it goes straight on: the ground seems to be tilted, and \
+                 bodies of the crowd would lean, too; turn the clip upright, or leave it out",
+                lean_deg.abs(),
+                if *lean_deg > 0.0 { "left" } else { "right" },
+                of_example(*from_s)
+            ),
+            Self::TrunkBent { lean_deg, from_s } => write!(
+                out,
+                "the trunk is bent by {lean_deg:.0}°{}; to keep this manner apart, give the clip a `style` in a manifest.toml",
+                of_example(*from_s)
+            ),
+            Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min: [steps, at_usual] } => write!(
+                out,
+                "{steps:.0} steps a minute at {frame_rate_hz:.0} Hz, but {at_usual:.0} at {usual_hz:.0} Hz, the rate of the \
+                 rig's other clips; if that is right, state `frame_rate_hz` in a manifest.toml"
             ),
             Self::NotCompared { compared } => write!(
                 out,

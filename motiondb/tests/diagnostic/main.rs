@@ -87,6 +87,9 @@ const NUMBERED: [&[&str]; 3] = [
         "radians_likely",
         "pose_frozen",
         "quick_motion",
+        "leans_aside",
+        "trunk_bent",
+        "rare_frame_rate",
     ],
     &[
         "up_contradicted",

@@ -3,6 +3,7 @@
 //! The same clips give the same bytes for any folder, file order and number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use motiondb::memory;
@@ -14,6 +15,7 @@ use crate::action::idles::idles;
 use crate::action::joined_action::{in_order, joined_idles};
 use crate::cache::Cache;
 use crate::checks::lying::leave_out_lying;
+use crate::checks::rare_frame_rates::warn_of_rare_frame_rates;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
 use crate::dedup::comparison::ComparedClip;
@@ -51,6 +53,8 @@ pub struct Compiled {
     pub db: MotionDb,
     /// Files and clips that cannot be used, in order of file name.
     pub rejected: Vec<Rejection>,
+    /// Known manners in the names of clips without a style, and of their folders.
+    pub unstyled_manners: BTreeSet<&'static str>,
 }
 
 /// Imports clip files and compiles them.
@@ -91,7 +95,7 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
         Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
         Err(CompileError::NoTransition { file, kind }) => Err(manifest.no_transition(&file, kind)),
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
-        db => Ok(Compiled { db: db?, rejected }),
+        db => Ok(Compiled { db: db?, rejected, unstyled_manners: manifest.unstyled_manners() }),
     }
 }
 
@@ -100,7 +104,7 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
 /// # Steps
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
-///    of near-equal ones. Leave out clips in which the body lies (`checks`).
+///    of near-equal ones. Leave out clips in which the body lies, and judge frame rates (`checks`).
 /// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
 ///    duplicates ([`crate::dedup`]).
 /// 4. Cut the idles (`action`).
@@ -154,6 +158,7 @@ fn database(
     observer(CompileEvent::Stage("selection"));
     let TargetedClips { mut clips, body } = set;
     leave_out_lying(&mut clips, &mut analyzed);
+    warn_of_rare_frame_rates(&clips, &mut analyzed);
     analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
     let extra = SetExtra::of(&clips, &analyzed, &body);
     let log = cache.map_or_else(ComparisonLog::default, |cache| cache.comparisons(&clips));

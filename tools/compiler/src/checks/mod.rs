@@ -6,11 +6,13 @@
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
 //! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `spread_arms` where it
-//! stands as in a bind pose; `lying` which clips of a set show a body that lies.
+//! stands as in a bind pose; `lying` which clips of a set show a body that lies, `rare_frame_rates` which are probably timed
+//! wrong.
 
 pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;
 pub(crate) mod lying;
 pub(crate) mod plausibility;
 pub(crate) mod pose_jumps;
+pub(crate) mod rare_frame_rates;
 pub(crate) mod spread_arms;

@@ -5,7 +5,8 @@
 //! metres).
 //!
 //! Read `analyzed_clip` (the chapter's steps), then `gait_cycle`, `mean_stride` with `loop_closure`, `standing_cycle`;
-//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `flaws`, `rate_cells`;
+//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `leans`, `flaws`,
+//! `rate_cells`;
 //! and `corners`, which no cycle shows.
 
 pub(crate) mod analyzed_clip;
@@ -13,6 +14,7 @@ pub(crate) mod corners;
 pub(crate) mod flaws;
 pub(crate) mod foot_slide;
 pub(crate) mod gait_cycle;
+mod leans;
 pub(crate) mod loop_closure;
 pub(crate) mod mean_stride;
 pub(crate) mod rate_cells;

@@ -22,4 +22,3 @@ pub use clip_settings::{ClipSettings, ManifestSpans};
 pub use manifest::Manifest;
 pub use name_suggestions::nearest_first;
 pub use options::Options;
-pub use style_names::manners_in_names;

@@ -2,10 +2,9 @@
 //!
 //! 1. File names of published sets: `Angry_FW.bvh` beside other movements of the same style (100STYLE),
 //!    `dataset-1_walk_elderly_001.bvh` (Bandai Namco), `strutting_01_000.bvh` (Xia et al. 2015).
-//! 2. Folders side by side that are named by known manners of moving, at least two of them. Numbers and words for movements
-//!    may stand beside the manner: `01_elderly`, `Happy Walk`; other words, where they are the same: `sad_anna`, `happy_anna`.
-//! 3. Folders side by side that each hold a walk, by its name, and are named by words without digits, at least one of
-//!    them by a known manner.
+//! 2. Folders side by side of at least two known manners of moving. Other words may stand beside the manner:
+//!    `01_elderly`, `Happy Walk`, `SadAnna`, `drunks`.
+//! 3. Beside these, folders that hold a walk, by its name, and are named by words without digits.
 //!
 //! So folders of subjects, sexes, takes and movements are no styles.
 //!
@@ -127,6 +126,29 @@ const PEOPLE: [&str; 23] = [
     "woman",
     "women",
 ];
+/// Manners that are things, too: beside other words they name no manner, as in `RobotArm`.
+const THINGS: [&str; 16] = [
+    "aeroplane",
+    "balance",
+    "cat",
+    "chicken",
+    "dinosaur",
+    "giant",
+    "kangaroo",
+    "morris",
+    "musical",
+    "penguin",
+    "quail",
+    "roadrunner",
+    "robot",
+    "rocket",
+    "star",
+    "superman",
+];
+/// Words of which one makes a folder an archive of clips.
+const ARCHIVES: [&str; 7] = ["archive", "archived", "backup", "deprecated", "project", "projects", "unused"];
+/// Words in the names of clips that rest.
+const RESTS: [&str; 3] = ["idle", "idles", "stand"];
 /// Words for movements, directions, speeds and parts of a collection: folders of these names alone hold no style.
 const MOVEMENTS: [&str; 50] = [
     "animation",
@@ -228,13 +250,21 @@ fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
     codes.into_keys().collect()
 }
 
-/// Known manners of one word in the names of files, in alphabetical order.
-pub fn manners_in_names<'a>(names: impl IntoIterator<Item = &'a str>) -> BTreeSet<&'static str> {
-    let words: BTreeSet<String> = names
-        .into_iter()
-        .flat_map(|name| stem(Path::new(name)).split(is_joint).map(str::to_owned).collect::<Vec<_>>())
-        .collect();
-    MANNERS.into_iter().filter(|manner| words.contains(*manner)).collect()
+/// Known manners in the names of clips and their folders, below the folder that holds them all; in alphabetical order. Rests
+/// have no manner.
+pub(crate) fn manners_in_names(paths: &[&Path]) -> BTreeSet<&'static str> {
+    let folder = |path: &&Path| path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let shared = paths.iter().map(folder).reduce(|shared, other| {
+        shared.ancestors().find(|ancestor| other.starts_with(ancestor)).map(Path::to_path_buf).unwrap_or_default()
+    });
+    let shared = shared.unwrap_or_default();
+    let of_path = |path: &&Path| -> Vec<&'static str> {
+        let below = path.strip_prefix(&shared).unwrap_or(path).with_extension("");
+        let words: Vec<String> = below.iter().flat_map(|part| words(&part.to_string_lossy())).collect();
+        let rests = words.iter().any(|word| RESTS.contains(&word.as_str()));
+        words.iter().filter(|_| !rests).filter_map(|word| manner_of(word)).collect()
+    };
+    paths.iter().flat_map(of_path).collect()
 }
 
 /// Folders that hold the clips of one style, and the style of each.
@@ -244,57 +274,12 @@ struct StyleFolders<'a> {
 
 /// A folder that may hold the clips of one style.
 struct StyleFolder {
+    /// Its name, in lower case.
     name: String,
-    manner: Option<Manner>,
-    /// The folder holds a clip that is a walk by its name.
+    /// The known manner in its name.
+    manner: Option<String>,
+    /// It holds a clip that is a walk by its name.
     has_walk: bool,
-}
-
-/// A known manner of moving in the name of a folder.
-struct Manner {
-    style: String,
-    /// The other words: `anna` of `sad_anna`; mostly none.
-    beside: String,
-}
-
-impl StyleFolder {
-    /// A folder by its name: one known manner beside numbers and other words, or words alone. `None` if the name holds a word
-    /// for people, or is neither.
-    fn named(name: String) -> Option<Self> {
-        if name.split(is_joint).any(|word| PEOPLE.contains(&word)) {
-            return None;
-        }
-        let manner = Manner::in_name(&name);
-        (manner.is_some() || is_style_word(&name)).then_some(Self { name, manner, has_walk: false })
-    }
-
-    /// The style of a manner that no other words stand beside.
-    fn plain_manner(&self) -> Option<&str> {
-        self.manner.as_ref().filter(|manner| manner.beside.is_empty()).map(|manner| manner.style.as_str())
-    }
-
-    /// The style of a folder with a walk: its plain manner, or its whole name.
-    fn style_of_walk(&self) -> Option<&str> {
-        let of_name = || is_style_word(&self.name).then_some(self.name.as_str());
-        self.plain_manner().or_else(of_name).filter(|_| self.has_walk)
-    }
-}
-
-impl Manner {
-    /// The known manner in a name; none where there are two.
-    fn in_name(name: &str) -> Option<Self> {
-        let has_digit = |word: &str| word.bytes().any(|byte| byte.is_ascii_digit());
-        let words: Vec<&str> =
-            name.split(is_joint).filter(|word| !has_digit(word) && !MOVEMENTS.contains(word)).collect();
-        let is_manner = |word: &str| MANNERS.contains(&word);
-        let whole = words.join("-");
-        if is_manner(&whole) {
-            return Some(Self { style: whole, beside: String::new() });
-        }
-        let (manners, others): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|word| is_manner(word));
-        let [manner] = manners[..] else { return None };
-        Some(Self { style: manner.to_owned(), beside: others.join("-") })
-    }
 }
 
 impl<'a> StyleFolders<'a> {
@@ -302,27 +287,28 @@ impl<'a> StyleFolders<'a> {
         let mut siblings: BTreeMap<&Path, BTreeMap<&Path, StyleFolder>> = BTreeMap::new();
         for path in paths {
             for folder in path.ancestors().skip(1) {
-                let (Some(parent), Some(name)) = (folder.parent(), named(folder)) else { continue };
-                let is_a_walk = is_walk(&without(&stem(path), &name));
-                let Some(found) = StyleFolder::named(name) else { continue };
-                siblings.entry(parent).or_default().entry(folder).or_insert(found).has_walk |= is_a_walk;
+                let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else { continue };
+                let Some(name) = name.to_str() else { continue };
+                let found =
+                    siblings.entry(parent).or_default().entry(folder).or_insert_with(|| StyleFolder::named(name));
+                found.has_walk |= is_walk(&without(&stem(path), &found.name));
             }
         }
-        let mut styles = BTreeMap::new();
-        let mut manners = Vec::new();
+        let (mut styles, mut others) = (BTreeMap::new(), Vec::new());
         for folders in siblings.into_values() {
-            let style_of = style_among(&folders);
+            let manners: BTreeSet<&String> = folders.values().filter_map(|found| found.manner.as_ref()).collect();
+            let are_styles = manners.len() > 1;
             for (folder, found) in &folders {
-                match (style_of(found), found.plain_manner()) {
-                    (Some(style), _) => drop(styles.insert(*folder, style)),
-                    (None, Some(manner)) => manners.push((*folder, manner.to_owned())),
-                    (None, None) => (),
+                match (are_styles, found.style(), &found.manner) {
+                    (true, Some(style), _) => drop(styles.insert(*folder, style)),
+                    (_, _, Some(manner)) => others.push((*folder, manner.clone())),
+                    _ => (),
                 }
             }
         }
         // A manner that is a style elsewhere in the set: `bob/angry` beside `anna/angry` and `anna/happy`.
         let found: BTreeSet<String> = styles.values().cloned().collect();
-        styles.extend(manners.into_iter().filter(|(_, manner)| found.contains(manner)));
+        styles.extend(others.into_iter().filter(|(_, manner)| found.contains(manner)));
         Self { styles }
     }
 
@@ -332,25 +318,56 @@ impl<'a> StyleFolders<'a> {
     }
 }
 
-/// The style of each of some folders side by side, where it is one: of two manners beside the same words, or of a walk
-/// beside another style's walk.
-fn style_among(folders: &BTreeMap<&Path, StyleFolder>) -> impl Fn(&StyleFolder) -> Option<String> + use<> {
-    let mut beside: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for manner in folders.values().filter_map(|found| found.manner.as_ref()) {
-        beside.entry(manner.beside.clone()).or_default().insert(manner.style.clone());
+impl StyleFolder {
+    fn named(name: &str) -> Self {
+        Self { name: name.to_lowercase(), manner: manner_in(name), has_walk: false }
     }
-    let have_walks = folders.values().filter_map(StyleFolder::style_of_walk).collect::<BTreeSet<&str>>().len() > 1
-        && folders.values().any(|found| found.has_walk && found.plain_manner().is_some());
-    move |found| {
-        let manner = found.manner.as_ref().filter(|manner| beside[&manner.beside].len() > 1);
-        let of_walk = || found.style_of_walk().filter(|_| have_walks);
-        manner.map(|manner| manner.style.as_str()).or_else(of_walk).map(str::to_owned)
+
+    /// The style, among folders that are styles: the manner, or of a folder with a walk its name.
+    fn style(&self) -> Option<String> {
+        let of_walk = || (self.has_walk && is_style_word(&self.name)).then(|| self.name.clone());
+        self.manner.clone().or_else(of_walk)
     }
 }
 
-/// The name of a folder, in lower case.
-fn named(folder: &Path) -> Option<String> {
-    Some(folder.file_name()?.to_str()?.to_lowercase())
+/// The known manner in the name of a folder; none where there are several, or where the name is that of an archive.
+fn manner_in(name: &str) -> Option<String> {
+    let whole = name.split(is_joint).map(str::to_lowercase).filter(|word| !MOVEMENTS.contains(&word.as_str()));
+    let whole = whole.collect::<Vec<String>>().join("-");
+    if MANNERS.contains(&whole.as_str()) {
+        return Some(whole);
+    }
+    let words = words(name);
+    let manners: Vec<&str> = words.iter().filter_map(|word| manner_of(word)).collect();
+    let is_archive = words.iter().any(|word| ARCHIVES.contains(&word.as_str()));
+    match manners[..] {
+        [manner] if !is_archive && !THINGS.contains(&manner) => Some(manner.to_owned()),
+        _ => None,
+    }
+}
+
+/// The words of a name, in lower case: `OldMan_walk 2` has the words `old`, `man`, `walk` and `2`.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before = ' ';
+    for letter in name.chars() {
+        let begins = letter.is_uppercase() && before.is_lowercase() || letter.is_numeric() != before.is_numeric();
+        if begins || is_joint(letter) {
+            words.push(String::new());
+        }
+        if !is_joint(letter) {
+            words.last_mut().expect("there is always a word").extend(letter.to_lowercase());
+        }
+        before = letter;
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+/// The known manner that a word names, also in the plural: `drunks`.
+fn manner_of(word: &str) -> Option<&'static str> {
+    let named = |word: &str| MANNERS.into_iter().find(|manner| *manner == word);
+    named(word).or_else(|| named(word.strip_suffix('s')?))
 }
 
 /// The name of a file without its extension, in lower case.
@@ -418,30 +435,37 @@ mod tests {
     }
 
     #[test]
-    fn folders_of_two_manners_are_styles_without_walks() {
+    fn folders_of_two_manners_are_styles() {
         check(&[("elderly/take001.bvh", "elderly"), ("happy/take001.bvh", "happy"), ("studio/take001.bvh", "")]);
         check(&[("01_elderly/a.bvh", "elderly"), ("02_happy/a.bvh", "happy"), ("03/a.bvh", "")]);
         check(&[("Elderly Walk/a.bvh", "elderly"), ("Not Confident/a.bvh", "not-confident")]);
         check(&[("01_elderly/walk.bvh", ""), ("02_elderly/walk.bvh", "")]);
-        check(&[("s1_sad/a.bvh", "sad"), ("s2_happy/a.bvh", "happy")]);
-        check(&[("Old Man/a.bvh", ""), ("Young Woman/a.bvh", "")]);
+        check(&[("Elderly_v2/a.bvh", "elderly"), ("Drunk_final/a.bvh", "drunk"), ("Normal/a.bvh", "normal")]);
+        check(&[("OldManWalk/a.bvh", "old"), ("DrunkWalk/a.bvh", "drunk"), ("Walk/a.bvh", "")]);
+        check(&[("Zombies/a.bvh", "zombie"), ("drunks/a.bvh", "drunk"), ("Civilians/a.bvh", "")]);
+        check(&[("Old Man/a.bvh", "old"), ("Elderly Woman/a.bvh", "elderly"), ("Woman/a.bvh", "")]);
         check(&[("anna/angry/a.bvh", "angry"), ("anna/happy/a.bvh", "happy"), ("bob/angry/a.bvh", "angry")]);
         check(&[("men/elderly/a.bvh", "elderly"), ("women/elderly/a.bvh", "elderly"), ("men/happy/a.bvh", "happy")]);
+        check(&[("sad_anna/a.bvh", "sad"), ("happy anna/a.bvh", "happy"), ("sad_bob/a.bvh", "sad")]);
     }
 
     #[test]
-    fn folders_of_two_manners_of_one_person_are_styles() {
-        check(&[("sad_anna/a.bvh", "sad"), ("happy anna/a.bvh", "happy"), ("sad_bob/a.bvh", "")]);
-        check(&[("anna-sad/walk.bvh", "sad"), ("anna-happy/walk.bvh", "happy"), ("anna/walk.bvh", "")]);
+    fn archives_and_mixed_manners_are_no_styles() {
         check(&[("old_project/a.bvh", ""), ("active_archive/a.bvh", "")]);
         check(&[("sad_happy_anna/a.bvh", ""), ("happy_anna/a.bvh", "")]);
-        check(&[("old/walk.bvh", "old"), ("very_old/walk.bvh", "very_old"), ("happy/walk.bvh", "happy")]);
+        check(&[("RobotExpressive/walk.bvh", ""), ("StarCaptain/walk.bvh", "")]);
+        check(&[("Mixamo/walk.bvh", ""), ("CMU/walk.bvh", ""), ("old/walk.bvh", "")]);
     }
 
     #[test]
-    fn manners_in_file_names_are_found() {
-        let names = ["elderly_walk.bvh", "Walk-Happy.glb", "happy.bvh", "walk_110.bvh"];
-        assert_eq!(manners_in_names(names).into_iter().collect::<Vec<_>>(), ["elderly", "happy"]);
+    fn manners_in_names_are_found() {
+        let found = |paths: &[&str]| {
+            let paths: Vec<&Path> = paths.iter().map(Path::new).collect();
+            manners_in_names(&paths).into_iter().collect::<Vec<_>>()
+        };
+        let files = ["a/elderly_walk.bvh", "a/Walk-Happy.glb", "a/happy.bvh", "a/walk_110.bvh", "a/tired_idle.bvh"];
+        assert_eq!(found(&files), ["elderly", "happy"]);
+        assert_eq!(found(&["/old/my/happy/sad_anna/a.bvh", "/old/my/happy/bob/OldWalk.bvh"]), ["old", "sad"]);
     }
 
     #[test]

@@ -87,6 +87,8 @@ pub struct Choices {
     pub takes_any_posture: bool,
     /// Whether the manifest states the up axis.
     pub is_up_stated: bool,
+    /// Whether the manifest states the frame rate.
+    pub is_rate_stated: bool,
     /// The kind of transition that the clip shows; it then gives no example.
     pub transition: Option<ActionKind>,
 }

@@ -113,13 +113,14 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     if let (true, Err(JobError::NoExample { rejected, sources })) = (args.json, &compiled) {
         output::print_json(&with_next_steps(CompileReport::without_examples(rejected.clone(), sources)))?;
     }
-    let Compiled { db, rejected } = compiled?;
+    let Compiled { db, rejected, unstyled_manners } = compiled?;
     rejected::print_passed_over(&args.clips)?;
     let answer = rejected::answer(&rejected);
     if args.strict && answer == Answer::No {
         rejected::print(&rejected);
         if args.json {
-            output::print_json(&with_next_steps(CompileReport::new(None, &db, rejected, stopwatch.stage_times())))?;
+            let report = CompileReport::new(None, &db, rejected, stopwatch.stage_times());
+            output::print_json(&with_next_steps(CompileReport { unstyled_manners, ..report }))?;
         }
         return Err(Failure::bad("some input was rejected, and --strict allows none; repair it or leave it out"));
     }
@@ -128,7 +129,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         rejected::print(&rejected);
     }
     compiling::write_database(&args.output, &db, &observer)?;
-    let report = with_next_steps(CompileReport::new(Some(&args.output), &db, rejected, stopwatch.stage_times()));
+    let report = CompileReport::new(Some(&args.output), &db, rejected, stopwatch.stage_times());
+    let report = with_next_steps(CompileReport { unstyled_manners, ..report });
     if args.json {
         output::print_json(&report)?;
     } else {

@@ -3,6 +3,7 @@
 //! Every clip is in exactly one list: `used` (it gives examples or actions), `unused` (a clip of human motion that gives
 //! neither) or `refused` (it cannot be read, or shows no human).
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use fbcrowd_jobs::json_schema::motion::{ActionKindMirror, CoverageGapMirror, ExampleQualityMirror, FindingMirror};
@@ -61,6 +62,9 @@ pub(crate) struct CompileReport {
     pub(crate) stages: Vec<StageTime>,
     /// What to do next, a sentence each.
     pub(crate) next: Vec<String>,
+    /// Known manners in the names of clips without a style.
+    #[serde(skip)]
+    pub(crate) unstyled_manners: BTreeSet<&'static str>,
 }
 
 /// A clip that gives no example.

@@ -1,11 +1,8 @@
 //! What to do after a compilation, the most useful step first.
 
-use std::collections::BTreeSet;
-
 use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
-use motiondb_compiler::input::manners_in_names;
 
-use crate::report::compile_report::{CompileReport, ExampleReport};
+use crate::report::compile_report::CompileReport;
 use crate::report::plain_text::title;
 
 /// Most clips that one sentence names.
@@ -33,12 +30,11 @@ fn next_steps(report: &CompileReport) -> Vec<String> {
     if report.example_count == 0 {
         next.push("Give clips of steady walking, running, turning or standing.".to_owned());
     }
-    let manners = unstyled_manners(report);
-    if manners.len() > 1 {
+    if report.unstyled_manners.len() > 1 {
         next.push(format!(
-            "File names suggest several styles ({}), but all these clips are blended as one. To separate them, state the \
-             `style` of the clips in a manifest.toml.",
-            manners.into_iter().collect::<Vec<_>>().join(", ")
+            "Names of files and folders suggest several styles ({}), but all these clips are blended as one. To separate \
+             them, state the `style` of the clips in a manifest.toml.",
+            Vec::from_iter(report.unstyled_manners.iter().copied()).join(", ")
         ));
     }
     next.extend(report.output.iter().flat_map(|output| with_database(report, output)));
@@ -64,13 +60,6 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
     }
     next.push(format!("Simulate a crowd: fbcrowd simulate SCENARIO.toml --db {output} -o crowd.fbrec"));
     next
-}
-
-/// Manners of moving in the names of the clips that have no style and give examples of gaits.
-fn unstyled_manners(report: &CompileReport) -> BTreeSet<&'static str> {
-    let moves = |example: &ExampleReport| example.speed_mps != 0.0 || example.strafe_mps != 0.0;
-    let blended = report.used.iter().filter(|used| used.style.is_empty() && used.examples.iter().any(moves));
-    manners_in_names(blended.map(|used| used.file.as_str()))
 }
 
 /// Clips with a gait that is too fast or too slow for a human.

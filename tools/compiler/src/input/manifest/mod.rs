@@ -153,6 +153,12 @@ impl Manifest {
         self.clips.iter().zip(found).map(|(clip, found)| clip.style.clone().unwrap_or(found)).collect()
     }
 
+    /// Known manners in the names of the clips without a style, and of their folders; in alphabetical order.
+    pub fn unstyled_manners(&self) -> BTreeSet<&'static str> {
+        let clips = self.clips.iter().zip(self.styles()).filter(|(_, style)| style.is_empty());
+        style_names::manners_in_names(&clips.map(|(clip, _)| clip.path.as_path()).collect::<Vec<&Path>>())
+    }
+
     /// Leaves only the clips of some styles; the empty name stands for clips without a style.
     ///
     /// # Errors
