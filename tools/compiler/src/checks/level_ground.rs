@@ -17,8 +17,8 @@ use crate::retarget::treadmill_speed;
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
 use crate::rig::roles::Roles;
 
-/// Least slope that counts: 1 in 12 is the steepest ramp that building codes allow (ADA 405.2).
-const SLOPE_MIN: f64 = 1.0 / 12.0;
+/// Least slope that counts: 1 in 20 is the steepest walkway that building codes do not call a ramp (ADA 403.3).
+const SLOPE_MIN: f64 = 1.0 / 20.0;
 /// Least rise of the feet over the clip that counts, m for a person's leg.
 const RISE_MIN_M: f64 = 0.1;
 /// Time between two positions by which the length of a path is measured, s: in it, jitter is small.
