@@ -149,13 +149,15 @@ pub enum Note {
         /// Number of further such parts.
         more: u32,
     },
-    /// Some steady windows of the clip give no example, since another one of nearly the same velocity holds trunk and arms
-    /// otherwise.
+    /// Some steady windows of the clip give no example, since trunk, arms or legs are held otherwise than in another one of
+    /// nearly the same velocity.
     CarriageLeftOut {
         /// Number of these windows.
         windows: u32,
         /// First and last second of the longest.
         longest_s: [f32; 2],
+        /// First and last second of the window that gives the example.
+        kept_s: [f32; 2],
     },
 }
 
@@ -228,11 +230,11 @@ impl fmt::Display for Note {
                 write!(out, "the clip gives transitions, but no example of a gait: {reason}")
             }
             Self::RestsLeftOut { longest_s, reason, more } => rests_left_out(out, *longest_s, reason, *more),
-            Self::CarriageLeftOut { windows, longest_s: [first_s, last_s] } => write!(
+            Self::CarriageLeftOut { windows, longest_s: [first_s, last_s], kept_s: [kept_first_s, kept_last_s] } => write!(
                 out,
-                "left out: {}, in which trunk or arms are held otherwise than in an example of nearly the same velocity; the \
-                 longest lasts from {first_s:.1} s to {last_s:.1} s. To use them, cut them out by `frames` in a manifest.toml \
-                 and give them a `style`",
+                "left out: {}, the longest from {first_s:.1} s to {last_s:.1} s: trunk, arms or legs are held otherwise than from \
+                 {kept_first_s:.1} s to {kept_last_s:.1} s, which gives the example of nearly the same velocity. To use both, \
+                 cut them out by `frames` in a manifest.toml and give them a `style` each",
                 steady_windows(*windows)
             ),
             Self::SameTake { other, mirrored, windows_left_out } => {

@@ -298,8 +298,9 @@ impl fmt::Display for Warning {
             ),
             Self::LeansAside { lean_deg, from_s } => write!(
                 out,
-                "the whole body leans by {:.0}° to the {}{}, although it goes straight on: the ground seems to be tilted, and \
-                 bodies of the crowd would lean, too; turn the clip upright, or leave it out",
+                "the whole body leans by {:.0}° to the {}{}, although it goes straight on: the ground seems to be tilted, or the \
+                 body carries something; bodies of the crowd lean, too. Turn the clip upright in another program, or leave it \
+                 out",
                 lean_deg.abs(),
                 if *lean_deg > 0.0 { "left" } else { "right" },
                 of_example(*from_s)
@@ -311,8 +312,8 @@ impl fmt::Display for Warning {
             ),
             Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min: [steps, at_usual] } => write!(
                 out,
-                "{steps:.0} steps a minute at {frame_rate_hz:.0} Hz, but {at_usual:.0} at {usual_hz:.0} Hz, the rate of the \
-                 rig's other clips; if that is right, state `frame_rate_hz` in a manifest.toml"
+                "{steps:.0} steps a minute at the stated {frame_rate_hz:.0} Hz are unusual; at {usual_hz:.0} Hz, the rate of the \
+                 rig's other clips, they are {at_usual:.0}; state the right `frame_rate_hz` in a manifest.toml"
             ),
             Self::NotCompared { compared } => write!(
                 out,

@@ -117,10 +117,10 @@ pub(crate) fn notes() -> Vec<(Note, &'static str)> {
              this, nor 2 further turns",
         ),
         (
-            Note::CarriageLeftOut { windows: 2, longest_s: [8.2, 12.13] },
-            "left out: 2 steady windows, in which trunk or arms are held otherwise than in an example of nearly the same \
-             velocity; the longest lasts from 8.2 s to 12.1 s. To use them, cut them out by `frames` in a manifest.toml and \
-             give them a `style`",
+            Note::CarriageLeftOut { windows: 2, longest_s: [8.2, 12.13], kept_s: [0.4, 6.0] },
+            "left out: 2 steady windows, the longest from 8.2 s to 12.1 s: trunk, arms or legs are held otherwise than from 0.4 s \
+             to 6.0 s, which gives the example of nearly the same velocity. To use both, cut them out by `frames` in a \
+             manifest.toml and give them a `style` each",
         ),
     ]
 }

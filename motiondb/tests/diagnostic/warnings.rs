@@ -143,18 +143,18 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::LeansAside { lean_deg: -15.2, from_s: None },
-            "the whole body leans by 15° to the right, although it goes straight on: the ground seems to be tilted, and \
-             bodies of the crowd would lean, too; turn the clip upright, or leave it out",
+            "the whole body leans by 15° to the right, although it goes straight on: the ground seems to be tilted, or the body \
+             carries something; bodies of the crowd lean, too. Turn the clip upright in another program, or leave it out",
         ),
         (
-            Warning::TrunkBent { lean_deg: 57.0, from_s: Some(3.2) },
-            "the trunk is bent by 57° in the example from 3.2 s on; to keep this manner apart, give the clip a `style` in a \
+            Warning::TrunkBent { lean_deg: 47.0, from_s: Some(3.2) },
+            "the trunk is bent by 47° in the example from 3.2 s on; to keep this manner apart, give the clip a `style` in a \
              manifest.toml",
         ),
         (
             Warning::RareFrameRate { frame_rate_hz: 120.0, usual_hz: 60.0, steps_per_min: [184.0, 92.0] },
-            "184 steps a minute at 120 Hz, but 92 at 60 Hz, the rate of the rig's other clips; if that is right, state \
-             `frame_rate_hz` in a manifest.toml",
+            "184 steps a minute at the stated 120 Hz are unusual; at 60 Hz, the rate of the rig's other clips, they are 92; \
+             state the right `frame_rate_hz` in a manifest.toml",
         ),
     ]
 }

@@ -53,7 +53,7 @@ pub struct Compiled {
     pub db: MotionDb,
     /// Files and clips that cannot be used, in order of file name.
     pub rejected: Vec<Rejection>,
-    /// Known manners in the names of clips without a style, and of their folders.
+    /// Known manners in the names of clips without a style that give examples of gaits, and of their folders.
     pub unstyled_manners: BTreeSet<&'static str>,
 }
 
@@ -95,8 +95,19 @@ fn compiled(manifest: &Manifest, cache: Option<&Cache>, observer: &Observer) -> 
         Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
         Err(CompileError::NoTransition { file, kind }) => Err(manifest.no_transition(&file, kind)),
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
-        db => Ok(Compiled { db: db?, rejected, unstyled_manners: manifest.unstyled_manners() }),
+        db => {
+            let db = db?;
+            let unstyled_manners = manifest.unstyled_manners(&unstyled_gaits(&db));
+            Ok(Compiled { db, rejected, unstyled_manners })
+        }
     }
+}
+
+/// Names of the files without a style that give examples of gaits.
+fn unstyled_gaits(db: &MotionDb) -> BTreeSet<&str> {
+    let examples = db.of_style("").into_iter().flat_map(|db| db.examples.iter().map(move |example| (db, example)));
+    let gaits = examples.filter(|(_, example)| example.key_times_s.is_some());
+    gaits.map(|(db, example)| db.sources[example.source as usize].file.as_str()).collect()
 }
 
 /// Compiles imported clips into a database.

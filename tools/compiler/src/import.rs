@@ -259,7 +259,7 @@ fn choices(settings: &ClipSettings) -> Choices {
     Choices {
         takes_any_posture: settings.takes_any_posture,
         is_up_stated: settings.up.is_some(),
-        is_rate_stated: settings.frame_rate_hz.is_some(),
+        is_frame_rate_stated: settings.frame_rate_hz.is_some(),
         mirror: settings.mirror,
         transition: settings.transition,
         is_cut: settings.frames.is_some(),

@@ -11,7 +11,7 @@ use crate::rig::rig_head::Rig;
 
 /// Leaves out clips by the axes that are up where the same rig steps, if none of them is the clip's: a body that neither
 /// steps nor moves otherwise lies; one that seems to crawl jumps or climbs. Their heads say nothing of the rig. A clip
-/// whose manifest states `up` stays.
+/// whose manifest states `up` stays, and a crawl whose manifest takes any posture.
 pub(crate) fn leave_out_lying(clips: &mut [HumanClip], analyzed: &mut [AnalyzedClip]) {
     let steps = |found: &AnalyzedClip| found.windows.iter().any(|window| window.stepping().is_some());
     let mut up_axes: BTreeMap<(Rig, String), BTreeSet<String>> = BTreeMap::new();
@@ -22,7 +22,8 @@ pub(crate) fn leave_out_lying(clips: &mut [HumanClip], analyzed: &mut [AnalyzedC
     }
     for (clip, found) in clips.iter_mut().zip(analyzed) {
         let Some(walks) = rig(clip).and_then(|rig| up_axes.get(&rig)) else { continue };
-        if clip.choices.is_up_stated || walks.contains(&clip.source.up_axis) {
+        let is_stated = clip.choices.is_up_stated || clip.seems_to_crawl && clip.choices.takes_any_posture;
+        if is_stated || walks.contains(&clip.source.up_axis) {
             continue;
         }
         let is_still = !steps(found) && found.movements.is_empty();

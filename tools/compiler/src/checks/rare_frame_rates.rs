@@ -34,14 +34,12 @@ pub(crate) fn warn_of_rare_frame_rates(clips: &[HumanClip], analyzed: &mut [Anal
         usual.map(|(hz, _)| f64::from(*hz))
     };
     for (clip, found) in clips.iter().zip(analyzed) {
-        let Some((usual_hz, cycle)) = usual_hz(clip).zip(found.windows.first().and_then(|window| window.stepping()))
-        else {
-            continue;
-        };
+        let cycle = found.windows.iter().find_map(|window| window.stepping());
+        let Some((usual_hz, cycle)) = usual_hz(clip).zip(cycle) else { continue };
         let steps_per_min = steps_per_min(cycle);
         let at_usual = steps_per_min * usual_hz / clip.frame_rate_hz;
         let ratio = (usual_hz / clip.frame_rate_hz).max(clip.frame_rate_hz / usual_hz);
-        let is_doubtful = !clip.choices.is_rate_stated
+        let is_doubtful = !clip.choices.is_frame_rate_stated
             && ratio >= RATIO_MIN
             && cycle.flight_share() < RUN_FLIGHT_MIN
             && !USUAL_STEPS_PER_MIN.contains(&steps_per_min)

@@ -62,10 +62,10 @@ pub(crate) struct LeftOutWindows {
     pub(crate) doubtful: usize,
     /// Windows near-equal to one that is as good or better.
     pub(crate) near_equal: usize,
-    /// Windows near-equal to a better one, in which trunk or arms are held otherwise.
-    pub(crate) other_carriage: usize,
-    /// First and last second of the longest of these.
-    longest_of_other_carriage_s: [f64; 2],
+    /// Windows near-equal to a better one, in which the body carries itself otherwise.
+    other_carriage: usize,
+    /// First and last second of the longest of these and of the better one.
+    longest_of_other_carriage_s: [[f64; 2]; 2],
 }
 
 impl AnalyzedClip {
@@ -192,13 +192,13 @@ impl AnalyzedClip {
 }
 
 impl LeftOutWindows {
-    /// Counts windows in which trunk or arms are held otherwise than in a better one.
-    pub(crate) fn add_of_other_carriage(&mut self, windows: &[SteadyCycle]) {
-        self.other_carriage += windows.len();
-        let duration_s = |[first_s, last_s]: [f64; 2]| last_s - first_s;
-        for window in windows {
-            if duration_s(window.window_s) > duration_s(self.longest_of_other_carriage_s) {
-                self.longest_of_other_carriage_s = window.window_s;
+    /// Counts windows in which the body carries itself otherwise than in a better one; first and last second of both.
+    pub(crate) fn add_other_carriages(&mut self, windows_s: &[[[f64; 2]; 2]]) {
+        self.other_carriage += windows_s.len();
+        let duration_s = |[[first_s, last_s], _]: [[f64; 2]; 2]| last_s - first_s;
+        for &window_s in windows_s {
+            if duration_s(window_s) > duration_s(self.longest_of_other_carriage_s) {
+                self.longest_of_other_carriage_s = window_s;
             }
         }
     }
@@ -207,8 +207,8 @@ impl LeftOutWindows {
         let [near_equal, doubtful, windows] =
             [self.near_equal, self.doubtful, self.other_carriage].map(|count| count as u32);
         let plain = (near_equal + doubtful > 0).then_some(Note::WindowsLeftOut { near_equal, doubtful });
-        let longest_s = self.longest_of_other_carriage_s.map(|time_s| time_s as f32);
-        plain.into_iter().chain((windows > 0).then_some(Note::CarriageLeftOut { windows, longest_s }))
+        let [longest_s, kept_s] = self.longest_of_other_carriage_s.map(|window_s| window_s.map(|time_s| time_s as f32));
+        plain.into_iter().chain((windows > 0).then_some(Note::CarriageLeftOut { windows, longest_s, kept_s }))
     }
 }
 

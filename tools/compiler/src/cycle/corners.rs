@@ -1,12 +1,13 @@
 //! Corners: parts of a clip in which a body that walks turns sharply. Times in frames of the clip; metres, radians.
 
 use std::f64::consts::PI;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
 use crate::frame_runs::frame_runs;
 use crate::gait::body_track::BodyPath;
+use crate::ground::root_arc::Rates;
 
 /// Span over which turn rate and speed are measured, s: half a stride, over which the sway of the facing is small.
 const SPAN_S: f64 = 0.5;
@@ -19,6 +20,9 @@ const SPEED_MIN_MPS: f64 = 0.3;
 
 /// Share of a corner from which a window shows it.
 pub(crate) const SHOWN_SHARE: f64 = 0.5;
+
+/// Turn rates of a steady walk that turns as a corner does, divided by the corner's.
+const ALIKE_RATES: RangeInclusive<f64> = 0.7..=1.4;
 
 /// A sharp turn of a body that walks, in its clip.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -39,6 +43,12 @@ pub(crate) struct SharpTurn {
 }
 
 impl Corner {
+    /// Whether a body at these rates walks and turns as in the corner.
+    pub(crate) fn turns_alike(&self, rates: &Rates) -> bool {
+        let rate_rad_s = self.turn_rad / (self.window_s[1] - self.window_s[0]);
+        rates.speed_over_ground_mps() >= SPEED_MIN_MPS && ALIKE_RATES.contains(&(rates.turn_rate_rad_s / rate_rad_s))
+    }
+
     /// Share of the corner that lies within a window, s.
     pub(crate) fn share_within(&self, [from_s, to_s]: [f64; 2]) -> f64 {
         let [first_s, last_s] = self.window_s;

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::motion::PhaseMap;
+use motiondb::statistics::mean;
 use serde::{Deserialize, Serialize};
 
 use crate::ground::root_arc::Rates;
@@ -32,16 +33,27 @@ impl GaitCycle {
         self.contacts.iter().filter(flies).count() as f64 / self.contacts.len().max(1) as f64
     }
 
+    /// The joints of a body at each phase.
+    pub(crate) fn joints(&self, body: &HumanBody) -> Vec<HumanJoints> {
+        self.rows.iter().map(|pose| pose.forward_kinematics(body)).collect()
+    }
+
+    /// Mean distance of the joints of two cycles at equal phases, m.
+    pub(crate) fn distance_m(&self, other: &Self, body: &HumanBody) -> f64 {
+        let (joints, others) = (self.joints(body), other.joints(body));
+        mean(joints.iter().zip(&others).map(|(one, other)| one.mean_distance_m(other))).unwrap_or_default()
+    }
+
     /// The mean carriage over the cycle.
     pub(crate) fn carriage(&self, body: &HumanBody) -> Carriage {
-        let joints: Vec<HumanJoints> = self.rows.iter().map(|pose| pose.forward_kinematics(body)).collect();
-        let mean = |[from, to]: [Joint; 2]| {
+        let joints = self.joints(body);
+        let mean_of = |[from, to]: [Joint; 2]| {
             let direction =
                 |joints: &HumanJoints| (joints.position_m(to) - joints.position_m(from)).normalize_or_zero();
             joints.iter().map(direction).sum::<DVec3>().as_vec3()
         };
-        let bone = |part: usize, side: usize| mean([ARMS[side][part], ARMS[side][part + 1]]);
+        let bone = |part: usize, side: usize| mean_of([ARMS[side][part], ARMS[side][part + 1]]);
         let arms = [bone(0, 0), bone(0, 1), bone(1, 0), bone(1, 1)];
-        Carriage { arms, trunk: mean([Joint::Pelvis, Joint::Neck]) }
+        Carriage { arms, trunk: mean_of([Joint::Pelvis, Joint::Neck]) }
     }
 }

@@ -5,13 +5,14 @@
 use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Warning};
+use motiondb::statistics::mean;
 use motiondb::velocity_sets::velocity_hull::goes_straight;
 
 use crate::cycle::gait_cycle::GaitCycle;
-use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
+use crate::retarget::human_clip::{HumanBody, HumanJoints};
 use crate::rig::body_angles::trunk_lean_deg;
 
-/// Greatest lean to a side of a body that goes straight on, ankles to neck, degrees; mean over the cycle. Captures of ten
+/// Greatest lean to a side of a body that goes straight on, ankles to neck, degrees; mean over the cycle. Captures of nine
 /// sources reach 1.8.
 const ASIDE_MAX_DEG: f64 = 4.0;
 /// Greatest lean of the trunk of an upright gait, degrees; mean over the cycle. Sprints reach 25.
@@ -19,11 +20,11 @@ const TRUNK_MAX_DEG: f64 = 40.0;
 
 /// The warnings about how a body leans.
 pub(crate) fn lean_warnings(cycle: &GaitCycle, body: &HumanBody) -> impl Iterator<Item = Diagnostic> {
-    let joints: Vec<HumanJoints> = cycle.rows.iter().map(|pose: &HumanPose| pose.forward_kinematics(body)).collect();
+    let joints = cycle.joints(body);
     let upward: DVec3 = joints.iter().map(ankles_to_neck).sum();
     let aside_deg = libm::atan2(upward.y, upward.z).to_degrees();
     let trunks_deg = joints.iter().map(|joints| trunk_lean_deg(|joint| joints.position_m(joint)));
-    let trunk_deg = trunks_deg.sum::<f64>() / joints.len() as f64;
+    let trunk_deg = mean(trunks_deg).unwrap_or_default();
     let is_tilted = goes_straight(&cycle.rates.to_parameters()) && aside_deg.abs() > ASIDE_MAX_DEG;
     let tilted = is_tilted.then_some(Warning::LeansAside { lean_deg: aside_deg as f32, from_s: None });
     let bent = (trunk_deg > TRUNK_MAX_DEG).then_some(Warning::TrunkBent { lean_deg: trunk_deg as f32, from_s: None });

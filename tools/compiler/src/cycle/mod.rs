@@ -4,10 +4,9 @@
 //! with their flaws and diagnostics, or why it has none. A [`GaitCycle`] is in the root frame (x forward, y left, z up,
 //! metres).
 //!
-//! Read `analyzed_clip` (the chapter's steps), then `gait_cycle`, `mean_stride` with `loop_closure`, `standing_cycle`;
-//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `leans`, `flaws`,
-//! `rate_cells`;
-//! and `corners`, which no cycle shows.
+//! Read `analyzed_clip` (the chapter's steps), then `gait_cycle` with `mirrored`, `mean_stride` with `loop_closure`,
+//! `standing_cycle`; then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `leans`, `flaws`,
+//! `rate_cells`; and `corners`, which no cycle shows.
 
 pub(crate) mod analyzed_clip;
 pub(crate) mod corners;
@@ -17,6 +16,7 @@ pub(crate) mod gait_cycle;
 mod leans;
 pub(crate) mod loop_closure;
 pub(crate) mod mean_stride;
+pub(crate) mod mirrored;
 pub(crate) mod rate_cells;
 pub(crate) mod rate_snapping;
 pub(crate) mod rest;

@@ -14,7 +14,7 @@ use crate::database::skeleton::skeleton;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanBody;
 use crate::select::named_cycles::{NamedCycle, SelectedCycles};
-use crate::select::posture_penalty::posture_penalty_mps;
+use crate::select::posture_penalty::posture_flaws;
 
 /// The database of cycles sorted by name; it may still be invalid.
 ///
@@ -64,5 +64,5 @@ fn coincident_rank(named: &NamedCycle, body: &HumanBody) -> f64 {
     if named.choices.is_semi_procedural && !named.mirrored {
         return f64::NEG_INFINITY;
     }
-    named.flaws + posture_penalty_mps(&named.cycle, body)
+    named.flaws + posture_flaws(&named.cycle, body)
 }

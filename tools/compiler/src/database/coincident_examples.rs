@@ -8,10 +8,8 @@ use motiondb::blend_space::BlendSpace;
 use motiondb::blend_space::triangulation::build;
 use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::{Parameters, SourceRecord};
-use motiondb::statistics::mean;
 
-use crate::cycle::gait_cycle::GaitCycle;
-use crate::retarget::human_clip::{HumanBody, HumanPose};
+use crate::retarget::human_clip::HumanBody;
 use crate::select::named_cycles::NamedCycle;
 
 /// Mean distance of the joints from which on two cycles of equal parameters differ in manner, m.
@@ -21,25 +19,33 @@ const OTHER_MANNER_M: f64 = 0.06;
 /// corner, not the first.
 pub(crate) fn blend_space_of_best(parameters: &[Parameters], flaws: &[f64]) -> BlendSpace {
     let space = build(parameters);
-    let mut order: Vec<usize> = (0..parameters.len()).collect();
-    for [other, corner] in coincident_pairs(parameters, &space) {
-        if flaws[other] < flaws[order[corner]] {
-            order.swap(other, corner);
+    let pairs = coincident_pairs(parameters, &space);
+    // The best example of each corner and those that coincide with it.
+    let mut best: Vec<usize> = (0..parameters.len()).collect();
+    for &[other, corner] in &pairs {
+        if flaws[other] < flaws[best[corner]] {
+            best[corner] = other;
         }
     }
-    if order.is_sorted() {
+    for &[other, corner] in &pairs {
+        best[other] = best[corner];
+    }
+    if pairs.iter().all(|[_, corner]| best[*corner] == *corner) {
         return space;
     }
-    // For the triangulation the better example takes the index of the other.
-    let best = build(&order.iter().map(|&example| parameters[example]).collect::<Vec<_>>());
-    let mut simplices: Vec<Vec<u32>> = best.simplices().map(|corners| original_indices(corners, &order)).collect();
+    // All of them have its parameters: else a corner could be the one that lies farther out by a hair.
+    let of_best = build(&best.iter().map(|&example| parameters[example]).collect::<Vec<_>>());
+    if of_best.dimension != space.dimension {
+        return space; // only a hair made the set as wide as it is
+    }
+    let mut simplices: Vec<Vec<u32>> = of_best.simplices().map(|corners| best_corners(corners, &best)).collect();
     simplices.sort_unstable();
-    BlendSpace { simplices: simplices.concat(), ..best }
+    BlendSpace { simplices: simplices.concat(), ..space }
 }
 
-/// Sorted indices of the examples that stand at some corners of a reordered set.
-fn original_indices(corners: &[u32], order: &[usize]) -> Vec<u32> {
-    let mut examples: Vec<u32> = corners.iter().map(|&corner| order[corner as usize] as u32).collect();
+/// Sorted indices of the examples that stand for some corners.
+fn best_corners(corners: &[u32], best: &[usize]) -> Vec<u32> {
+    let mut examples: Vec<u32> = corners.iter().map(|&corner| best[corner as usize] as u32).collect();
     examples.sort_unstable();
     examples
 }
@@ -68,7 +74,7 @@ pub(crate) fn note_coincident(
     let pairs = pairs.iter().map(|pair| pair.map(|index| &cycles[index]));
     for [unused, blended] in pairs.filter(|[unused, _]| !unused.mirrored) {
         let (example, other) = (unused.name.clone(), blended.name.clone());
-        let distance_m = distance_m(&unused.cycle, &blended.cycle, body);
+        let distance_m = unused.cycle.distance_m(&blended.cycle, body);
         let note = if distance_m > OTHER_MANNER_M {
             Note::CoincidentManners { example, blended: other, distance_cm: (100.0 * distance_m) as f32 }
         } else {
@@ -76,13 +82,6 @@ pub(crate) fn note_coincident(
         };
         sources[unused.source as usize].diagnostics.push(Diagnostic::Note(note));
     }
-}
-
-/// Mean distance of the joints of two cycles at equal phases, m.
-fn distance_m(one: &GaitCycle, other: &GaitCycle, body: &HumanBody) -> f64 {
-    let joints = |pose: &HumanPose| pose.forward_kinematics(body);
-    let distances = one.rows.iter().zip(&other.rows).map(|(a, b)| joints(a).mean_distance_m(&joints(b)));
-    mean(distances).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -111,5 +110,18 @@ mod tests {
         assert_eq!(best.simplices, [1, 3, 5]);
         assert_eq!(coincident_pairs(&parameters, &best), [[0, 5], [2, 1], [4, 5]]);
         assert_eq!(blend_space_of_best(&parameters, &[0.0; 6]), build(&parameters));
+    }
+
+    #[test]
+    fn the_least_flawed_is_the_corner_also_where_others_lie_farther_out() {
+        for off_mps in [-0.0015, -0.001, 0.0, 0.001, 0.0015] {
+            let points = [[1.0 + off_mps, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.6, 0.5, 0.0]];
+            for best in [0, 2] {
+                let flaws: [f64; 4] = std::array::from_fn(|index| if index == best { 0.0 } else { 1.0 });
+                let space = blend_space_of_best(&parameters(&points), &flaws);
+                assert!(space.simplices.contains(&(best as u32)), "{off_mps} {best}: {:?}", space.simplices);
+                assert!(!space.simplices.contains(&(2 - best as u32)), "{off_mps} {best}: {:?}", space.simplices);
+            }
+        }
     }
 }

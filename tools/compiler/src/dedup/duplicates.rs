@@ -148,10 +148,10 @@ mod tests {
 
     use super::*;
     use crate::cycle::analyzed_clip::AnalyzedClip;
+    use crate::cycle::mirrored::mirrored_pose;
     use crate::ground::root_arc::Rates;
     use crate::ground::target_body::target_body;
     use crate::retarget::human_clip::HumanPose;
-    use crate::select::mirror::mirrored_pose;
     use crate::synthetic::{SyntheticWalk, idle, performance, walk};
 
     fn bend() -> SyntheticWalk {

@@ -12,10 +12,10 @@ use motiondb::statistics::mean;
 
 use crate::action::joined_action::JoinedAction;
 use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::cycle::mirrored::mirrored_rotation;
 use crate::extra_joints::clip_extra::ClipExtra;
 use crate::ground::pose_mean::mean_rotation;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
-use crate::select::mirror::mirrored_rotation;
 use crate::select::named_cycles::NamedCycle;
 
 /// The extra joints of a set, each with its mean over the clips, on the target body.

@@ -46,32 +46,48 @@ pub(crate) fn chord_frames(frame_rate_hz: f64) -> usize {
     (libm::round(CHORD_S * frame_rate_hz) as usize).max(1)
 }
 
+/// Length of a path up to each frame. A step of it is that of the chord, from frame `chord` to `chord + chord_frames`, whose
+/// middle is nearest; `chords_m` are lengths a frame.
+fn path_of_chords(chords_m: &[f64], chord_frames: usize, frame_count: usize) -> Vec<f64> {
+    let step_m = |frame: usize| {
+        let chord = frame.saturating_sub(chord_frames.div_ceil(2)).min(chords_m.len().max(1) - 1);
+        chords_m.get(chord).copied().unwrap_or_default()
+    };
+    let mut path_m = 0.0;
+    (0..frame_count)
+        .map(|frame| {
+            path_m += if frame == 0 { 0.0 } else { step_m(frame) };
+            path_m
+        })
+        .collect()
+}
+
 impl<'a> BodyTrack<'a> {
     /// The track of a clip. `see` gets the joints of each frame; they are not kept.
     pub(crate) fn of(clip: &'a GroundedClip<'a>, body: &'a HumanBody, mut see: impl FnMut(&HumanJoints)) -> Self {
         let frame_rate_hz = clip.frame_rate_hz;
         let (joint_path_m, hips_m, facing_rad, ankles_m) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut track = Self { clip, body, frame_rate_hz, joint_path_m, hips_m, facing_rad, ankles_m };
-        let chord_frames = chord_frames(frame_rate_hz);
-        let mut before: VecDeque<HumanJoints> = VecDeque::with_capacity(chord_frames);
+        let chord_frames = chord_frames(frame_rate_hz).min(clip.frame_count().max(2) - 1);
+        let (mut before, mut chords_m) = (VecDeque::with_capacity(chord_frames), Vec::new());
         for frame in 0..clip.frame_count() {
             let joints = track.joints(frame);
             see(&joints);
-            track.push(&joints, &before);
+            track.push(&joints);
             if before.len() == chord_frames {
-                before.pop_front();
+                let first: HumanJoints = before.pop_front().expect("a chord has at least one frame");
+                chords_m.push(first.mean_distance_m(&joints) / chord_frames as f64);
             }
             before.push_back(joints);
         }
+        track.joint_path_m = path_of_chords(&chords_m, chord_frames, clip.frame_count());
         track
     }
 
-    /// Appends a frame; `before` are the joints of the frames before, from the start of the chord on.
-    fn push(&mut self, joints: &HumanJoints, before: &VecDeque<HumanJoints>) {
-        let step_m = before.front().map_or(0.0, |first| first.mean_distance_m(joints) / before.len() as f64);
+    /// Appends a frame, without the path of its joints.
+    fn push(&mut self, joints: &HumanJoints) {
         let facing_rad = joints.facing_rad();
         let jump_rad = self.facing_rad.last().map_or(0.0, |last_rad| facing_rad - last_rad);
-        self.joint_path_m.push(self.joint_path_m.last().map_or(0.0, |path_m| path_m + step_m));
         self.hips_m.push(joints.hips_m().truncate());
         self.ankles_m.push(Joint::FEET.map(|foot| joints.positions_m[foot.index()].truncate()));
         self.facing_rad.push(facing_rad - TAU * libm::round(jump_rad / TAU));

@@ -6,7 +6,8 @@
 //!    `01_elderly`, `Happy Walk`, `SadAnna`, `drunks`.
 //! 3. Beside these, folders that hold a walk, by its name, and are named by words without digits.
 //!
-//! So folders of subjects, sexes, takes and movements are no styles.
+//! So folders of subjects, sexes, takes and movements are no styles. Nor are those with words for archives (`old_takes`), with
+//! two manners, or with a manner that is a thing, too (`RobotArm`).
 //!
 //! A style is a manner in which anybody can move: old, drunk, happy. Who moves is none, a woman, a child or an actor:
 //! other bodies of another sex are no reason for an agent to move otherwise.
@@ -14,6 +15,7 @@
 //! Names of styles are in lower case.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
 use std::path::Path;
 
 use motiondb::validate::is_style_name;
@@ -100,7 +102,7 @@ const MANNERS: [&str; 75] = [
     "youthful",
     "zombie",
 ];
-/// Words for people: folders of these names hold no style.
+/// Words for people: without a manner beside them they name no style.
 const PEOPLE: [&str; 23] = [
     "actor",
     "actors",
@@ -146,11 +148,10 @@ const THINGS: [&str; 16] = [
     "superman",
 ];
 /// Words of which one makes a folder an archive of clips.
-const ARCHIVES: [&str; 7] = ["archive", "archived", "backup", "deprecated", "project", "projects", "unused"];
-/// Words in the names of clips that rest.
-const RESTS: [&str; 3] = ["idle", "idles", "stand"];
+const ARCHIVES: [&str; 9] =
+    ["archive", "archived", "backup", "copy", "deprecated", "project", "projects", "takes", "unused"];
 /// Words for movements, directions, speeds and parts of a collection: folders of these names alone hold no style.
-const MOVEMENTS: [&str; 50] = [
+const MOVEMENTS: [&str; 52] = [
     "animation",
     "animations",
     "anims",
@@ -193,6 +194,8 @@ const MOVEMENTS: [&str; 50] = [
     "step",
     "stop",
     "strafe",
+    "take",
+    "takes",
     "test",
     "train",
     "turn",
@@ -234,7 +237,8 @@ fn style_of_name(path: &Path, of_codes: &BTreeSet<String>) -> Option<String> {
     }
 }
 
-/// Styles that have a walk and another movement by the codes of 100STYLE; beside these, known manners with any movement.
+/// Styles that have a walk by the codes of 100STYLE, and known manners with any movement; where one of the styles has a walk and
+/// another movement, or two known manners have codes.
 fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
     let mut codes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for path in paths {
@@ -245,26 +249,31 @@ fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
         }
     }
     let is_whole = |codes: &BTreeSet<String>| codes.contains("fw") && codes.len() > 1;
-    let has_whole = codes.values().any(is_whole);
-    codes.retain(|style, codes| is_whole(codes) || has_whole && MANNERS.contains(&style.as_str()));
+    let manners = codes.keys().filter(|style| MANNERS.contains(&style.as_str())).count();
+    let is_set = codes.values().any(is_whole) || manners > 1;
+    codes.retain(|style, codes| is_set && (codes.contains("fw") || MANNERS.contains(&style.as_str())));
     codes.into_keys().collect()
 }
 
-/// Known manners in the names of clips and their folders, below the folder that holds them all; in alphabetical order. Rests
-/// have no manner.
+/// Known manners in the names of clips and of their folders, below the folder that holds them all; in alphabetical order. None
+/// if there is but one, in the names of files: it may be a speed.
 pub(crate) fn manners_in_names(paths: &[&Path]) -> BTreeSet<&'static str> {
     let folder = |path: &&Path| path.parent().map(Path::to_path_buf).unwrap_or_default();
     let shared = paths.iter().map(folder).reduce(|shared, other| {
         shared.ancestors().find(|ancestor| other.starts_with(ancestor)).map(Path::to_path_buf).unwrap_or_default()
     });
     let shared = shared.unwrap_or_default();
-    let of_path = |path: &&Path| -> Vec<&'static str> {
-        let below = path.strip_prefix(&shared).unwrap_or(path).with_extension("");
-        let words: Vec<String> = below.iter().flat_map(|part| words(&part.to_string_lossy())).collect();
-        let rests = words.iter().any(|word| RESTS.contains(&word.as_str()));
-        words.iter().filter(|_| !rests).filter_map(|word| manner_of(word)).collect()
+    let manner = |part: &OsStr| manner_in(&part.to_string_lossy());
+    let folders = |path: &&'_ Path| -> Vec<&'static str> {
+        let below = path.strip_prefix(&shared).unwrap_or(path).parent();
+        below.into_iter().flatten().filter_map(manner).collect()
     };
-    paths.iter().flat_map(of_path).collect()
+    let of_folders: BTreeSet<&str> = paths.iter().flat_map(folders).collect();
+    let of_files: BTreeSet<&str> = paths.iter().filter_map(|path| path.file_stem().and_then(manner)).collect();
+    if of_folders.is_empty() && of_files.len() < 2 {
+        return BTreeSet::new();
+    }
+    of_folders.union(&of_files).copied().collect()
 }
 
 /// Folders that hold the clips of one style, and the style of each.
@@ -277,7 +286,7 @@ struct StyleFolder {
     /// Its name, in lower case.
     name: String,
     /// The known manner in its name.
-    manner: Option<String>,
+    manner: Option<&'static str>,
     /// It holds a clip that is a walk by its name.
     has_walk: bool,
 }
@@ -296,13 +305,12 @@ impl<'a> StyleFolders<'a> {
         }
         let (mut styles, mut others) = (BTreeMap::new(), Vec::new());
         for folders in siblings.into_values() {
-            let manners: BTreeSet<&String> = folders.values().filter_map(|found| found.manner.as_ref()).collect();
-            let are_styles = manners.len() > 1;
+            let manners: BTreeSet<&str> = folders.values().filter_map(|found| found.manner).collect();
             for (folder, found) in &folders {
-                match (are_styles, found.style(), &found.manner) {
-                    (true, Some(style), _) => drop(styles.insert(*folder, style)),
-                    (_, _, Some(manner)) => others.push((*folder, manner.clone())),
-                    _ => (),
+                if let Some(style) = found.style().filter(|_| manners.len() > 1) {
+                    styles.insert(*folder, style);
+                } else if let Some(manner) = found.manner {
+                    others.push((*folder, manner.to_owned()));
                 }
             }
         }
@@ -326,24 +334,25 @@ impl StyleFolder {
     /// The style, among folders that are styles: the manner, or of a folder with a walk its name.
     fn style(&self) -> Option<String> {
         let of_walk = || (self.has_walk && is_style_word(&self.name)).then(|| self.name.clone());
-        self.manner.clone().or_else(of_walk)
+        self.manner.map(str::to_owned).or_else(of_walk)
     }
 }
 
-/// The known manner in the name of a folder; none where there are several, or where the name is that of an archive.
-fn manner_in(name: &str) -> Option<String> {
-    let whole = name.split(is_joint).map(str::to_lowercase).filter(|word| !MOVEMENTS.contains(&word.as_str()));
-    let whole = whole.collect::<Vec<String>>().join("-");
-    if MANNERS.contains(&whole.as_str()) {
+/// The known manner in a name; none where there are several, where the name is that of an archive, or where a manner that is
+/// a thing, too, stands beside other words than numbers and movements.
+fn manner_in(name: &str) -> Option<&'static str> {
+    let words = words(name);
+    if words.iter().any(|word| ARCHIVES.contains(&word.as_str())) {
+        return None;
+    }
+    let is_said = |word: &&str| !MOVEMENTS.contains(word) && !word.chars().all(char::is_numeric);
+    let said: Vec<&str> = words.iter().map(String::as_str).filter(is_said).collect();
+    if let Some(whole) = manner_of(&said.join("-")) {
         return Some(whole);
     }
-    let words = words(name);
-    let manners: Vec<&str> = words.iter().filter_map(|word| manner_of(word)).collect();
-    let is_archive = words.iter().any(|word| ARCHIVES.contains(&word.as_str()));
-    match manners[..] {
-        [manner] if !is_archive && !THINGS.contains(&manner) => Some(manner.to_owned()),
-        _ => None,
-    }
+    let manners: BTreeSet<&str> = said.iter().filter_map(|word| manner_of(word)).collect();
+    let single = manners.first().copied().filter(|manner| manners.len() == 1 && !THINGS.contains(manner));
+    single.and_then(manner_of)
 }
 
 /// The words of a name, in lower case: `OldMan_walk 2` has the words `old`, `man`, `walk` and `2`.
@@ -439,6 +448,11 @@ mod tests {
         check(&[("elderly/take001.bvh", "elderly"), ("happy/take001.bvh", "happy"), ("studio/take001.bvh", "")]);
         check(&[("01_elderly/a.bvh", "elderly"), ("02_happy/a.bvh", "happy"), ("03/a.bvh", "")]);
         check(&[("Elderly Walk/a.bvh", "elderly"), ("Not Confident/a.bvh", "not-confident")]);
+        check(&[
+            ("01_not_confident/a.bvh", "not-confident"),
+            ("02_robots/a.bvh", "robot"),
+            ("Old_OldMan/a.bvh", "old"),
+        ]);
         check(&[("01_elderly/walk.bvh", ""), ("02_elderly/walk.bvh", "")]);
         check(&[("Elderly_v2/a.bvh", "elderly"), ("Drunk_final/a.bvh", "drunk"), ("Normal/a.bvh", "normal")]);
         check(&[("OldManWalk/a.bvh", "old"), ("DrunkWalk/a.bvh", "drunk"), ("Walk/a.bvh", "")]);
@@ -452,6 +466,7 @@ mod tests {
     #[test]
     fn archives_and_mixed_manners_are_no_styles() {
         check(&[("old_project/a.bvh", ""), ("active_archive/a.bvh", "")]);
+        check(&[("old_takes/a.bvh", ""), ("active_takes/a.bvh", "")]);
         check(&[("sad_happy_anna/a.bvh", ""), ("happy_anna/a.bvh", "")]);
         check(&[("RobotExpressive/walk.bvh", ""), ("StarCaptain/walk.bvh", "")]);
         check(&[("Mixamo/walk.bvh", ""), ("CMU/walk.bvh", ""), ("old/walk.bvh", "")]);
@@ -463,9 +478,12 @@ mod tests {
             let paths: Vec<&Path> = paths.iter().map(Path::new).collect();
             manners_in_names(&paths).into_iter().collect::<Vec<_>>()
         };
-        let files = ["a/elderly_walk.bvh", "a/Walk-Happy.glb", "a/happy.bvh", "a/walk_110.bvh", "a/tired_idle.bvh"];
+        let files = ["a/elderly_walk.bvh", "a/Walk-Happy.glb", "a/happy.bvh", "a/walk_110.bvh", "a/RobotArm.glb"];
         assert_eq!(found(&files), ["elderly", "happy"]);
         assert_eq!(found(&["/old/my/happy/sad_anna/a.bvh", "/old/my/happy/bob/OldWalk.bvh"]), ["old", "sad"]);
+        assert_eq!(found(&["a/walk.bvh", "a/elderly/walk.bvh"]), ["elderly"]);
+        assert!(found(&["a/walk.bvh", "a/brisk_walk.bvh"]).is_empty());
+        assert!(found(&["a/old_project/walk.bvh", "a/walk.bvh"]).is_empty());
     }
 
     #[test]
@@ -487,6 +505,13 @@ mod tests {
     fn names_of_published_sets_state_styles() {
         check(&[("100STYLE/Angry/Angry_FW.bvh", "angry"), ("100STYLE/Angry/Angry_ID.bvh", "angry")]);
         check(&[("Angry_FW.bvh", "angry"), ("Angry_BW.bvh", "angry"), ("Happy_FW.bvh", "happy"), ("Take_FW.bvh", "")]);
+        check(&[
+            ("Neutral_FW.bvh", "neutral"),
+            ("Neutral_ID.bvh", "neutral"),
+            ("LimpRight_FW.bvh", "limpright"),
+            ("HandsInPockets_FW.bvh", "handsinpockets"),
+        ]);
+        check(&[("Angry_FW.bvh", "angry"), ("Old_FW.bvh", "old"), ("BeatChest_FW.bvh", "beatchest")]);
         check(&[("BeatChest_FW.bvh", "beatchest"), ("BeatChest_TR1.bvh", "beatchest"), ("Walk_FW.bvh", "")]);
         check(&[
             ("dataset-1_walk_elderly_001.bvh", "elderly"),

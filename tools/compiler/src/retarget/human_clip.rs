@@ -88,7 +88,7 @@ pub struct Choices {
     /// Whether the manifest states the up axis.
     pub is_up_stated: bool,
     /// Whether the manifest states the frame rate.
-    pub is_rate_stated: bool,
+    pub is_frame_rate_stated: bool,
     /// The kind of transition that the clip shows; it then gives no example.
     pub transition: Option<ActionKind>,
 }

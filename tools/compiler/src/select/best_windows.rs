@@ -1,7 +1,8 @@
 //! AnalyzedClip → which of its steady windows become examples: of near-equal windows the best.
 //!
-//! 1. Of the windows of one clip that are near-equal and in which trunk or arms are held otherwise ([`Carriage`]), one
-//!    carriage stays: by flaws, posture penalty ([`posture_penalty_mps`]) and duration.
+//! 1. Of the windows of one clip that are near-equal, but differ in trunk and arms ([`Carriage`]) or in the posture penalty
+//!    ([`crate::select::posture_penalty`]), one carriage stays: by flaws of window and posture, and by the share of the time
+//!    with other carriages.
 //! 2. Among those that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]), the one with the fewest flaws
 //!    stays ([`crate::cycle::flaws`]). The longest of the rest always stays as the clip's own example: the user gave
 //!    the clip.
@@ -9,16 +10,19 @@
 //!    example so far.
 
 use glam::DVec3;
+use motiondb::velocity_sets::velocity_hull::goes_straight;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::rate_cells;
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::retarget::human_clip::HumanBody;
 use crate::rig::carriage::Carriage;
-use crate::select::posture_penalty::posture_penalty_mps;
+use crate::select::posture_penalty::posture_flaws;
 
-/// Posture penalty as bad as a flaw of 1, m/s: the width of a cell.
-const PENALTY_MPS: f64 = 0.25;
+/// Least difference of the posture flaws of two carriages that go straight: legs that are bent or limp.
+const POSTURES_APART: f64 = 0.4;
+/// Flaws of a window if all others of its velocity have another carriage.
+const RARITY_FLAWS: f64 = 0.3;
 
 /// Keeps the first window of a clip and of the others those that are beyond doubt; of each cell the best. They stay in
 /// their order, the longest first.
@@ -42,44 +46,68 @@ pub(crate) fn best_windows(mut clip: AnalyzedClip, body: &HumanBody) -> Analyzed
     clip
 }
 
-/// Drops, and counts, the windows of a clip that step as another one does, but with another carriage.
+/// A window that steps, as far as its carriage matters.
+struct CarriedWindow {
+    carriage: Carriage,
+    /// Its posture penalty as flaws.
+    posture_flaws: f64,
+    goes_straight: bool,
+}
+
+impl CarriedWindow {
+    fn of(window: &SteadyCycle, body: &HumanBody) -> Option<Self> {
+        let cycle = window.stepping()?;
+        Some(Self {
+            carriage: cycle.carriage(body),
+            posture_flaws: posture_flaws(cycle, body),
+            goes_straight: goes_straight(&cycle.rates.to_parameters()),
+        })
+    }
+
+    /// Whether the body holds trunk, arms or legs otherwise.
+    fn differs(&self, other: &Self) -> bool {
+        let go_straight = self.goes_straight && other.goes_straight;
+        !self.carriage.is_like(&other.carriage)
+            || go_straight && (self.posture_flaws - other.posture_flaws).abs() > POSTURES_APART
+    }
+}
+
+/// Drops, and counts, the windows of a clip that step at the velocity of another, but with another carriage: the one with
+/// more flaws of window and posture, and the rarer one.
 fn leave_out_other_carriages(clip: &mut AnalyzedClip, body: &HumanBody) {
     let windows = &clip.windows;
-    let carriages: Vec<Option<Carriage>> =
-        windows.iter().map(|window| window.stepping().map(|cycle| cycle.carriage(body))).collect();
-    let differ = |a: usize, b: usize| {
-        let is_near = are_near_equal(&windows[a], &windows[b]) || cell(&windows[a]) == cell(&windows[b]);
-        is_near && carriages[a].zip(carriages[b]).is_some_and(|(a, b)| !a.is_like(&b))
-    };
-    if !(0..windows.len()).any(|a| (0..a).any(|b| differ(a, b))) {
+    if windows.len() < 2 {
         return;
     }
-    let duration_s = |index: usize| windows[index].window_s[1] - windows[index].window_s[0];
-    let near = |index: usize| {
-        (0..windows.len()).filter(move |&other| other == index || are_near_equal(&windows[index], &windows[other]))
+    let carried: Vec<Option<CarriedWindow>> = windows.iter().map(|window| CarriedWindow::of(window, body)).collect();
+    let cells: Vec<(bool, DVec3)> = windows.iter().map(cell).collect();
+    let is_near = |a: usize, b: usize| cells[a] == cells[b] || are_near_equal(&windows[a], &windows[b]);
+    let differ = |a: usize, b: usize| {
+        let both = carried[a].as_ref().zip(carried[b].as_ref()).filter(|_| is_near(a, b));
+        both.is_some_and(|(one, other)| one.differs(other))
     };
+    let duration_s = |index: usize| windows[index].window_s[1] - windows[index].window_s[0];
     let badness = |index: usize| {
-        let penalty_mps = windows[index].stepping().map_or(0.0, |cycle| posture_penalty_mps(cycle, body));
-        let unlike_s: f64 = near(index).filter(|&other| differ(index, other)).map(duration_s).sum();
-        let all_s: f64 = near(index).map(duration_s).sum();
-        windows[index].flaws + penalty_mps / PENALTY_MPS + unlike_s / all_s
+        let near: Vec<usize> = (0..windows.len()).filter(|&other| is_near(index, other)).collect();
+        let all_s: f64 = near.iter().map(|&other| duration_s(other)).sum();
+        let unlike_s: f64 = near.iter().filter(|&&other| differ(index, other)).map(|&other| duration_s(other)).sum();
+        let posture_flaws = carried[index].as_ref().map_or(0.0, |window| window.posture_flaws);
+        windows[index].flaws + posture_flaws + RARITY_FLAWS * unlike_s / all_s
     };
     let badness: Vec<f64> = (0..windows.len()).map(badness).collect();
     let mut order: Vec<usize> = (0..windows.len()).collect();
     order.sort_by(|a, b| badness[*a].total_cmp(&badness[*b]));
-    let mut kept: Vec<usize> = Vec::new();
+    let (mut kept, mut left_out) = (Vec::new(), Vec::new());
     for index in order {
-        if !kept.iter().any(|&better| differ(better, index)) {
-            kept.push(index);
+        match kept.iter().find(|&&better| differ(better, index)) {
+            Some(&better) => left_out.push([windows[index].window_s, windows[better].window_s]),
+            None => kept.push(index),
         }
     }
     kept.sort_unstable();
     let mut index = 0..;
-    let (kept, left_out) = std::mem::take(&mut clip.windows)
-        .into_iter()
-        .partition(|_| index.next().is_some_and(|index: usize| kept.binary_search(&index).is_ok()));
-    clip.windows = kept;
-    clip.left_out.add_of_other_carriage(&left_out);
+    clip.windows.retain(|_| index.next().is_some_and(|index: usize| kept.binary_search(&index).is_ok()));
+    clip.left_out.add_other_carriages(&left_out);
 }
 
 /// Drops, and counts, the windows of all clips that add nothing to the set.

@@ -13,6 +13,7 @@ pub(crate) fn note_unused_corners(sources: &mut [SourceRecord], analyzed: &[Anal
         let is_shown = |corner: &Corner| {
             let own = actions.iter().filter(|action| action.source as usize == index);
             own.into_iter().any(|action| corner.share_within(action.window_s) >= SHOWN_SHARE)
+                || found.windows.iter().any(|window| corner.turns_alike(&window.rates()))
         };
         let unused: Vec<&Corner> = found.corners.iter().filter(|corner| !is_shown(corner)).collect();
         let sharpest = unused.iter().rev().max_by(|a, b| a.turn_rad.abs().total_cmp(&b.turn_rad.abs()));

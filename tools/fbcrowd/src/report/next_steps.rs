@@ -30,10 +30,10 @@ fn next_steps(report: &CompileReport) -> Vec<String> {
     if report.example_count == 0 {
         next.push("Give clips of steady walking, running, turning or standing.".to_owned());
     }
-    if report.unstyled_manners.len() > 1 {
+    if !report.unstyled_manners.is_empty() {
         next.push(format!(
-            "Names of files and folders suggest several styles ({}), but all these clips are blended as one. To separate \
-             them, state the `style` of the clips in a manifest.toml.",
+            "Names of files and folders suggest styles ({}), but all these clips are blended as one. To separate them, state \
+             the `style` of the clips in a manifest.toml.",
             Vec::from_iter(report.unstyled_manners.iter().copied()).join(", ")
         ));
     }

@@ -41,6 +41,7 @@ mod clip_selection;
 mod clips_table;
 
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -153,10 +154,13 @@ impl Manifest {
         self.clips.iter().zip(found).map(|(clip, found)| clip.style.clone().unwrap_or(found)).collect()
     }
 
-    /// Known manners in the names of the clips without a style, and of their folders; in alphabetical order.
-    pub fn unstyled_manners(&self) -> BTreeSet<&'static str> {
-        let clips = self.clips.iter().zip(self.styles()).filter(|(_, style)| style.is_empty());
-        style_names::manners_in_names(&clips.map(|(clip, _)| clip.path.as_path()).collect::<Vec<&Path>>())
+    /// Known manners in the names of clips without a style, and of their folders, in alphabetical order; of the files of some
+    /// names alone. Clips whose style the manifest states do not count.
+    pub(crate) fn unstyled_manners(&self, files: &BTreeSet<&str>) -> BTreeSet<&'static str> {
+        let is_used = |path: &Path| path.file_name().and_then(OsStr::to_str).is_some_and(|name| files.contains(name));
+        let clips = self.clips.iter().zip(self.styles());
+        let unstyled = clips.filter(|(clip, style)| style.is_empty() && clip.style.is_none() && is_used(&clip.path));
+        style_names::manners_in_names(&unstyled.map(|(clip, _)| clip.path.as_path()).collect::<Vec<&Path>>())
     }
 
     /// Leaves only the clips of some styles; the empty name stands for clips without a style.
