@@ -230,13 +230,7 @@ impl fmt::Display for Note {
                 write!(out, "the clip gives transitions, but no example of a gait: {reason}")
             }
             Self::RestsLeftOut { longest_s, reason, more } => rests_left_out(out, *longest_s, reason, *more),
-            Self::CarriageLeftOut { windows, longest_s: [first_s, last_s], kept_s: [kept_first_s, kept_last_s] } => write!(
-                out,
-                "left out: {}, the longest from {first_s:.1} s to {last_s:.1} s: trunk, arms or legs are held otherwise than from \
-                 {kept_first_s:.1} s to {kept_last_s:.1} s, which gives the example of nearly the same velocity. To use both, \
-                 cut them out by `frames` in a manifest.toml and give them a `style` each",
-                steady_windows(*windows)
-            ),
+            Self::CarriageLeftOut { windows, longest_s, kept_s } => carriage_left_out(out, *windows, *longest_s, *kept_s),
             Self::SameTake { other, mirrored, windows_left_out } => {
                 write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))
             }
@@ -320,4 +314,19 @@ fn low_parts_left_out(
         write!(out, ", and in {more} more parts it is not upright ({total_s:.1} s in all)")?;
     }
     out.write_str("; this gives no example (state `posture = \"any\"` in a manifest.toml to use it)")
+}
+
+fn carriage_left_out(
+    out: &mut fmt::Formatter<'_>,
+    windows: u32,
+    [first_s, last_s]: [f32; 2],
+    [kept_first_s, kept_last_s]: [f32; 2],
+) -> fmt::Result {
+    write!(
+        out,
+        "left out: {}, the longest from {first_s:.1} s to {last_s:.1} s: trunk, arms or legs are held otherwise than from \
+         {kept_first_s:.1} s to {kept_last_s:.1} s, which gives the example of nearly the same velocity. To use both, cut \
+         them out by `frames` in a manifest.toml and give them a `style` each",
+        steady_windows(windows)
+    )
 }

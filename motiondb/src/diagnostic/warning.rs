@@ -231,16 +231,15 @@ impl fmt::Display for Warning {
                 "the unit is doubtful: thigh and shank are taken to be {leg_m:.2} m long; if they are {other_leg_m:.2} m \
                  long, state `metres_per_unit = {other_unit_m}` in a manifest.toml"
             ),
-            Self::FrameTimeDoubtful { step_cm, steps_per_min, frame_rate_hz } => write!(
-                out,
-                "steps of {step_cm:.0} cm, only {steps_per_min:.0} a minute, look like slow motion; if the clip was \
-                 recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
-            ),
-            Self::QuickMotion { step_cm, steps_per_min, frame_rate_hz } => write!(
-                out,
-                "steps of only {step_cm:.0} cm, {steps_per_min:.0} a minute, look like motion played too fast; if the clip \
-                 was recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a manifest.toml"
-            ),
+            Self::FrameTimeDoubtful { step_cm, steps_per_min, frame_rate_hz } => {
+                let steps = format!("steps of {step_cm:.0} cm, only {steps_per_min:.0} a minute, look like slow motion");
+                frame_rate_doubtful(out, &steps, *frame_rate_hz)
+            }
+            Self::QuickMotion { step_cm, steps_per_min, frame_rate_hz } => {
+                let steps =
+                    format!("steps of only {step_cm:.0} cm, {steps_per_min:.0} a minute, look like motion played too fast");
+                frame_rate_doubtful(out, &steps, *frame_rate_hz)
+            }
             Self::SidesExchanged => out.write_str(
                 "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \
                  if the names are right, state `joints` in a manifest.toml",
@@ -276,16 +275,8 @@ impl fmt::Display for Warning {
             Self::FrameTimesDiffer { others, more, mirrored, windows_left_out } => {
                 frame_times_differ(out, others, *more, *mirrored, *windows_left_out)
             }
-            Self::StyleWithoutExample { style } => write!(
-                out,
-                "style `{style}` gives no example, so the database lacks it; add a steady walk of this style, or state \
-                 `style = \"\"` for its clips in a manifest.toml"
-            ),
-            Self::StyleWithoutStride { style } => write!(
-                out,
-                "style `{style}` has no stride, so its agents reach no goal; add a steady walk of this style, or state \
-                 `style = \"\"` for its clips in a manifest.toml"
-            ),
+            Self::StyleWithoutExample { style } => style_without(out, style, "gives no example, so the database lacks it"),
+            Self::StyleWithoutStride { style } => style_without(out, style, "has no stride, so its agents reach no goal"),
             Self::RadiansLikely { turned_rad } => write!(
                 out,
                 "no foot steps, and no joint turns by more than {:.1}°: the file seems to hold radians; export it with \
@@ -296,25 +287,15 @@ impl fmt::Display for Warning {
                 "all frames hold the same pose, so a body that stands in it does not move at all; use a clip of a body \
                  that stands at ease",
             ),
-            Self::LeansAside { lean_deg, from_s } => write!(
-                out,
-                "the whole body leans by {:.0}° to the {}{}, although it goes straight on: the ground seems to be tilted, or the \
-                 body carries something; bodies of the crowd lean, too. Turn the clip upright in another program, or leave it \
-                 out",
-                lean_deg.abs(),
-                if *lean_deg > 0.0 { "left" } else { "right" },
-                of_example(*from_s)
-            ),
+            Self::LeansAside { lean_deg, from_s } => leans_aside(out, *lean_deg, *from_s),
             Self::TrunkBent { lean_deg, from_s } => write!(
                 out,
                 "the trunk is bent by {lean_deg:.0}°{}; to keep this manner apart, give the clip a `style` in a manifest.toml",
                 of_example(*from_s)
             ),
-            Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min: [steps, at_usual] } => write!(
-                out,
-                "{steps:.0} steps a minute at the stated {frame_rate_hz:.0} Hz are unusual; at {usual_hz:.0} Hz, the rate of the \
-                 rig's other clips, they are {at_usual:.0}; state the right `frame_rate_hz` in a manifest.toml"
-            ),
+            Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min } => {
+                rare_frame_rate(out, *frame_rate_hz, *usual_hz, *steps_per_min)
+            }
             Self::NotCompared { compared } => write!(
                 out,
                 "duplicates of this clip are not searched for: only the {compared} longest clips are compared; compile \
@@ -391,5 +372,45 @@ fn t_pose(out: &mut fmt::Formatter<'_>, frames: u32, end: ClipEnd) -> fmt::Resul
         out,
         "the clip {verb} with {frames} frames of T-pose; they are kept, because too little motion remains without them; \
          use a longer clip"
+    )
+}
+
+/// Steps that another frame rate would explain.
+fn frame_rate_doubtful(out: &mut fmt::Formatter<'_>, steps: &str, frame_rate_hz: f32) -> fmt::Result {
+    write!(
+        out,
+        "{steps}; if the clip was recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a \
+         manifest.toml"
+    )
+}
+
+fn rare_frame_rate(
+    out: &mut fmt::Formatter<'_>,
+    frame_rate_hz: f32,
+    usual_hz: f32,
+    [steps, at_usual]: [f32; 2],
+) -> fmt::Result {
+    write!(
+        out,
+        "{steps:.0} steps a minute at the stated {frame_rate_hz:.0} Hz are unusual; at {usual_hz:.0} Hz, the rate of the \
+         rig's other clips, they are {at_usual:.0}; state the right `frame_rate_hz` in a manifest.toml"
+    )
+}
+
+fn leans_aside(out: &mut fmt::Formatter<'_>, lean_deg: f32, from_s: Option<f32>) -> fmt::Result {
+    write!(
+        out,
+        "the whole body leans by {:.0}° to the {}{}, although it goes straight on: the ground seems to be tilted, or the \
+         body carries something; bodies of the crowd lean, too. Turn the clip upright in another program, or leave it out",
+        lean_deg.abs(),
+        if lean_deg > 0.0 { "left" } else { "right" },
+        of_example(from_s)
+    )
+}
+
+fn style_without(out: &mut fmt::Formatter<'_>, style: &str, lack: &str) -> fmt::Result {
+    write!(
+        out,
+        "style `{style}` {lack}; add a steady walk of this style, or state `style = \"\"` for its clips in a manifest.toml"
     )
 }

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::action::idles::idles;
 use crate::action::joined_action::{in_order, joined_idles};
 use crate::cache::Cache;
-use crate::checks::lying::leave_out_lying;
+use crate::checks::other_up_axes::leave_out_other_up_axes;
 use crate::checks::rare_frame_rates::warn_of_rare_frame_rates;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
@@ -115,7 +115,7 @@ fn unstyled_gaits(db: &MotionDb) -> BTreeSet<&str> {
 /// # Steps
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
-///    of near-equal ones. Leave out clips in which the body lies, and judge frame rates (`checks`).
+///    of near-equal ones. Leave out clips that do not stand as their rig does, and judge frame rates (`checks`).
 /// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
 ///    duplicates ([`crate::dedup`]).
 /// 4. Cut the idles (`action`).
@@ -168,7 +168,7 @@ fn database(
     };
     observer(CompileEvent::Stage("selection"));
     let TargetedClips { mut clips, body } = set;
-    leave_out_lying(&mut clips, &mut analyzed);
+    leave_out_other_up_axes(&mut clips, &mut analyzed);
     warn_of_rare_frame_rates(&clips, &mut analyzed);
     analyzed.iter_mut().zip(head_bends(&clips)).for_each(|(found, bend)| found.bend_head(bend));
     let extra = SetExtra::of(&clips, &analyzed, &body);

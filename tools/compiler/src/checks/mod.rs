@@ -6,12 +6,12 @@
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
 //! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `spread_arms` where it
-//! stands as in a bind pose; `lying` which clips of a set show a body that lies, `rare_frame_rates` which are probably timed
-//! wrong.
+//! stands as in a bind pose. Of a set, `other_up_axes` finds the clips that do not stand as their rig does, `rare_frame_rates`
+//! those with a doubtful frame rate.
 
 pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;
-pub(crate) mod lying;
+pub(crate) mod other_up_axes;
 pub(crate) mod plausibility;
 pub(crate) mod pose_jumps;
 pub(crate) mod rare_frame_rates;

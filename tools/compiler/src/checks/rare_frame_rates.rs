@@ -17,8 +17,6 @@ const USUAL_MIN: usize = 3;
 const RATIO_MIN: f64 = 1.8;
 /// Steps a minute of walks, turns and side-steps; runs take more.
 const USUAL_STEPS_PER_MIN: RangeInclusive<f64> = 80.0..=145.0;
-/// Least share of the cycle with both feet in the air in a run.
-const RUN_FLIGHT_MIN: f64 = 0.15;
 
 /// Adds a warning to the clips whose frame rate is probably stated wrong.
 pub(crate) fn warn_of_rare_frame_rates(clips: &[HumanClip], analyzed: &mut [AnalyzedClip]) {
@@ -41,7 +39,7 @@ pub(crate) fn warn_of_rare_frame_rates(clips: &[HumanClip], analyzed: &mut [Anal
         let ratio = (usual_hz / clip.frame_rate_hz).max(clip.frame_rate_hz / usual_hz);
         let is_doubtful = !clip.choices.is_frame_rate_stated
             && ratio >= RATIO_MIN
-            && cycle.flight_share() < RUN_FLIGHT_MIN
+            && !cycle.is_run()
             && !USUAL_STEPS_PER_MIN.contains(&steps_per_min)
             && USUAL_STEPS_PER_MIN.contains(&at_usual);
         if is_doubtful {
@@ -67,13 +65,13 @@ fn steps_per_min(cycle: &GaitCycle) -> f64 {
 mod tests {
     use motiondb::motion::MotionDb;
 
-    use crate::rig::rig_head::RigHead;
+    use crate::rig::rig_head::{Rig, RigHead};
     use crate::synthetic::{SyntheticWalk, database_of, walk};
 
     /// The set of a rig with four walks at 60 Hz and a turn of this period, s, whose rate is stated as `stated_hz`.
     fn set(period_s: f64, stated_hz: f64) -> MotionDb {
         let head = || RigHead {
-            rig: crate::rig::rig_head::Rig { names: vec!["Hips".to_owned()], lengths: Vec::new() },
+            rig: Rig { names: vec!["Hips".to_owned()], lengths: Vec::new() },
             offset: glam::DQuat::IDENTITY,
             rest_offset: None,
             rest_up: String::new(),

@@ -11,6 +11,10 @@ use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 use crate::rig::carriage::Carriage;
 use crate::rig::roles::ARMS;
 
+/// Share of the cycle with both feet in the air from which a gait is a run. Jogs: 0.2; brisk walks whose contacts are detected
+/// too short: up to 0.1.
+const RUN_FLIGHT_SHARE: f64 = 0.15;
+
 /// One closed cycle; phase 0 is right mid-stance. Root frame: x forward, y left, z up, metres.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GaitCycle {
@@ -27,10 +31,10 @@ pub struct GaitCycle {
 }
 
 impl GaitCycle {
-    /// Share of the cycle with both feet in the air.
-    pub(crate) fn flight_share(&self) -> f64 {
+    /// Whether the body runs: both feet are in the air for a part of the cycle.
+    pub(crate) fn is_run(&self) -> bool {
         let flies = |contacts: &&[f64; 2]| contacts.iter().all(|contact| *contact < 0.5);
-        self.contacts.iter().filter(flies).count() as f64 / self.contacts.len().max(1) as f64
+        self.contacts.iter().filter(flies).count() as f64 > RUN_FLIGHT_SHARE * self.contacts.len() as f64
     }
 
     /// The joints of a body at each phase.

@@ -20,191 +20,12 @@ use std::path::Path;
 
 use motiondb::validate::is_style_name;
 
+use crate::input::style_words::{is_joint, is_manner, is_style_word, is_word, manner_in};
+
 /// Movements of 100STYLE (Mason et al. 2022): forward, backward and sideways walks and runs, idle, transitions.
 const MOVEMENT_CODES: [&str; 10] = ["bw", "br", "fw", "fr", "id", "sw", "sr", "tr1", "tr2", "tr3"];
 /// The styles of Xia et al. 2015.
 const XIA_STYLES: [&str; 8] = ["angry", "childlike", "depressed", "neutral", "old", "proud", "sexy", "strutting"];
-/// Words for manners of moving that folders are named by: those of the published sets, and near ones.
-const MANNERS: [&str; 75] = [
-    "active",
-    "aeroplane",
-    "aged",
-    "akimbo",
-    "angry",
-    "balance",
-    "brisk",
-    "casual",
-    "cat",
-    "cheerful",
-    "chicken",
-    "childish",
-    "childlike",
-    "chimpira",
-    "cool",
-    "crouched",
-    "depressed",
-    "dinosaur",
-    "drunk",
-    "elated",
-    "elderly",
-    "excited",
-    "exhausted",
-    "feminine",
-    "flapping",
-    "giant",
-    "graceful",
-    "happy",
-    "heavy",
-    "heavyset",
-    "hurried",
-    "injured",
-    "joyful",
-    "kangaroo",
-    "lame",
-    "limp",
-    "limping",
-    "lively",
-    "march",
-    "marching",
-    "masculine",
-    "morris",
-    "musical",
-    "neutral",
-    "normal",
-    "not-confident",
-    "old",
-    "penguin",
-    "proud",
-    "quail",
-    "relaxed",
-    "roadrunner",
-    "robot",
-    "rocket",
-    "rushed",
-    "sad",
-    "scared",
-    "sexy",
-    "shy",
-    "sleepy",
-    "sneaky",
-    "star",
-    "stiff",
-    "strutting",
-    "stumbling",
-    "superman",
-    "swagger",
-    "tiptoe",
-    "tired",
-    "wary",
-    "weak",
-    "wild",
-    "young",
-    "youthful",
-    "zombie",
-];
-/// Words for people: without a manner beside them they name no style.
-const PEOPLE: [&str; 23] = [
-    "actor",
-    "actors",
-    "actress",
-    "boy",
-    "boys",
-    "child",
-    "children",
-    "female",
-    "females",
-    "girl",
-    "girls",
-    "ladies",
-    "lady",
-    "male",
-    "males",
-    "man",
-    "men",
-    "people",
-    "performer",
-    "person",
-    "subject",
-    "woman",
-    "women",
-];
-/// Manners that are things, too: beside other words they name no manner, as in `RobotArm`.
-const THINGS: [&str; 16] = [
-    "aeroplane",
-    "balance",
-    "cat",
-    "chicken",
-    "dinosaur",
-    "giant",
-    "kangaroo",
-    "morris",
-    "musical",
-    "penguin",
-    "quail",
-    "roadrunner",
-    "robot",
-    "rocket",
-    "star",
-    "superman",
-];
-/// Words of which one makes a folder an archive of clips.
-const ARCHIVES: [&str; 9] =
-    ["archive", "archived", "backup", "copy", "deprecated", "project", "projects", "takes", "unused"];
-/// Words for movements, directions, speeds and parts of a collection: folders of these names alone hold no style.
-const MOVEMENTS: [&str; 52] = [
-    "animation",
-    "animations",
-    "anims",
-    "back",
-    "backward",
-    "bvh",
-    "circle",
-    "clips",
-    "copy",
-    "data",
-    "dataset",
-    "fast",
-    "fbx",
-    "forward",
-    "gait",
-    "gaits",
-    "glb",
-    "gltf",
-    "idle",
-    "idles",
-    "jog",
-    "jogs",
-    "jump",
-    "left",
-    "locomotion",
-    "misc",
-    "mocap",
-    "motion",
-    "motions",
-    "other",
-    "raw",
-    "right",
-    "run",
-    "runs",
-    "side",
-    "slow",
-    "sprint",
-    "stand",
-    "start",
-    "step",
-    "stop",
-    "strafe",
-    "take",
-    "takes",
-    "test",
-    "train",
-    "turn",
-    "turns",
-    "val",
-    "walk",
-    "walking",
-    "walks",
-];
 /// Styles that serve agents without a style where no clip is without one, the first that the set has.
 pub(crate) const NEUTRAL_STYLES: [&str; 2] = ["neutral", "normal"];
 
@@ -249,9 +70,9 @@ fn styles_of_movement_codes(paths: &[&Path]) -> BTreeSet<String> {
         }
     }
     let is_whole = |codes: &BTreeSet<String>| codes.contains("fw") && codes.len() > 1;
-    let manners = codes.keys().filter(|style| MANNERS.contains(&style.as_str())).count();
+    let manners = codes.keys().filter(|style| is_manner(style)).count();
     let is_set = codes.values().any(is_whole) || manners > 1;
-    codes.retain(|style, codes| is_set && (codes.contains("fw") || MANNERS.contains(&style.as_str())));
+    codes.retain(|style, codes| is_set && (codes.contains("fw") || is_manner(style)));
     codes.into_keys().collect()
 }
 
@@ -338,47 +159,6 @@ impl StyleFolder {
     }
 }
 
-/// The known manner in a name; none where there are several, where the name is that of an archive, or where a manner that is
-/// a thing, too, stands beside other words than numbers and movements.
-fn manner_in(name: &str) -> Option<&'static str> {
-    let words = words(name);
-    if words.iter().any(|word| ARCHIVES.contains(&word.as_str())) {
-        return None;
-    }
-    let is_said = |word: &&str| !MOVEMENTS.contains(word) && !word.chars().all(char::is_numeric);
-    let said: Vec<&str> = words.iter().map(String::as_str).filter(is_said).collect();
-    if let Some(whole) = manner_of(&said.join("-")) {
-        return Some(whole);
-    }
-    let manners: BTreeSet<&str> = said.iter().filter_map(|word| manner_of(word)).collect();
-    let single = manners.first().copied().filter(|manner| manners.len() == 1 && !THINGS.contains(manner));
-    single.and_then(manner_of)
-}
-
-/// The words of a name, in lower case: `OldMan_walk 2` has the words `old`, `man`, `walk` and `2`.
-fn words(name: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let mut before = ' ';
-    for letter in name.chars() {
-        let begins = letter.is_uppercase() && before.is_lowercase() || letter.is_numeric() != before.is_numeric();
-        if begins || is_joint(letter) {
-            words.push(String::new());
-        }
-        if !is_joint(letter) {
-            words.last_mut().expect("there is always a word").extend(letter.to_lowercase());
-        }
-        before = letter;
-    }
-    words.retain(|word| !word.is_empty());
-    words
-}
-
-/// The known manner that a word names, also in the plural: `drunks`.
-fn manner_of(word: &str) -> Option<&'static str> {
-    let named = |word: &str| MANNERS.into_iter().find(|manner| *manner == word);
-    named(word).or_else(|| named(word.strip_suffix('s')?))
-}
-
 /// The name of a file without its extension, in lower case.
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase())
@@ -389,24 +169,9 @@ fn without(stem: &str, folder: &str) -> String {
     stem.replacen(folder, "", 1).trim_matches(is_joint).to_owned()
 }
 
-fn is_joint(letter: char) -> bool {
-    matches!(letter, '_' | '-' | ' ' | '.')
-}
-
 /// Whether a clip is a walk by its name without the folder's.
 fn is_walk(name: &str) -> bool {
     name.contains("walk") || name == "fw"
-}
-
-/// Letters, and what joins words.
-fn is_word(name: &str) -> bool {
-    name.chars().any(char::is_alphabetic) && name.chars().all(|letter| letter.is_alphabetic() || is_joint(letter))
-}
-
-/// Whether a style may have this name: no number, no movement.
-fn is_style_word(name: &str) -> bool {
-    let is_other = |word: &str| MOVEMENTS.contains(&word) || PEOPLE.contains(&word);
-    is_word(name) && name.chars().count() > 2 && !name.split(is_joint).any(is_other)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Carriage: how a body holds its trunk and its arms in the mean, whatever its legs do.
+//! Carriage: how a body holds its trunk and its arms, by the mean directions of their bones.
 //!
 //! Frame of the facing: x forward, y left, z up.
 

@@ -11,10 +11,6 @@ const BASE_WALK_MPS: f64 = 1.2;
 /// Speed that makes a walk as unlike m_sp as a turn rate does, divided by that rate, m.
 const TURN_RADIUS_M: f64 = 1.0;
 
-/// Least share of the cycle with both feet in the air in a run. Jogs: 0.2; brisk walks whose contacts are detected too
-/// short: up to 0.1.
-const FLIGHT_MIN: f64 = 0.15;
-
 /// A cycle that steps, as far as it matters for the choice of m_sp.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaseWalkCandidate {
@@ -24,8 +20,8 @@ pub(crate) struct BaseWalkCandidate {
     pub(crate) is_upright: bool,
     /// The feet deserve a warning.
     pub(crate) is_doubtful: bool,
-    /// Share of the cycle with both feet in the air.
-    pub(crate) flight_share: f64,
+    /// The body runs.
+    pub(crate) is_run: bool,
     /// Its posture penalty, m/s ([`crate::select::posture_penalty`]).
     pub(crate) posture_penalty_mps: f64,
 }
@@ -34,13 +30,12 @@ pub(crate) struct BaseWalkCandidate {
 /// 1. upright;
 /// 2. straight;
 /// 3. clean feet;
-/// 4. no flight;
+/// 4. no run;
 /// 5. least difference from 1.2 m/s, plus the posture penalty. Where none is straight, the rates of the root are to be
 ///    nearest to those of a straight walk: a body leans in a circle, and turns its head.
 pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
     let faults = |walk: &BaseWalkCandidate| {
-        let is_run = walk.flight_share > FLIGHT_MIN;
-        [!walk.is_upright, !goes_straight(&walk.rates.to_parameters()), walk.is_doubtful, is_run]
+        [!walk.is_upright, !goes_straight(&walk.rates.to_parameters()), walk.is_doubtful, walk.is_run]
     };
     let distance = |walk: &BaseWalkCandidate| {
         let Rates { speed_mps, turn_rate_rad_s, strafe_mps } = walk.rates;
@@ -63,7 +58,7 @@ mod tests {
 
     fn candidate(speed_mps: f64, turn_rate_rad_s: f64) -> BaseWalkCandidate {
         let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
-        BaseWalkCandidate { rates, is_upright: true, is_doubtful: false, flight_share: 0.0, posture_penalty_mps: 0.0 }
+        BaseWalkCandidate { rates, is_upright: true, is_doubtful: false, is_run: false, posture_penalty_mps: 0.0 }
     }
 
     #[test]
@@ -91,7 +86,7 @@ mod tests {
     #[test]
     fn bent_walks_and_runs_give_way() {
         let (stroll, walk) = (candidate(0.7, 0.0), candidate(1.2, 0.0));
-        let slow_jog = BaseWalkCandidate { flight_share: 0.2, ..walk };
+        let slow_jog = BaseWalkCandidate { is_run: true, ..walk };
         assert_eq!(base_walk(&[slow_jog, stroll]), Some(1));
         let stalk = BaseWalkCandidate { posture_penalty_mps: 0.6, ..walk };
         assert_eq!(base_walk(&[stalk, stroll]), Some(1));

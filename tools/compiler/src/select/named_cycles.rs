@@ -156,7 +156,7 @@ fn base_walk_candidates(
                 rates: cycle.rates,
                 is_upright: clips[clip].is_upright_in(steady.window_s),
                 is_doubtful: steady.is_doubtful,
-                flight_share: cycle.flight_share(),
+                is_run: cycle.is_run(),
                 posture_penalty_mps: posture_penalty_mps(cycle, body),
             };
             Some((WindowId { clip, window }, candidate))

@@ -12,7 +12,7 @@ use crate::rig::rig_head::Rig;
 /// Leaves out clips by the axes that are up where the same rig steps, if none of them is the clip's: a body that neither
 /// steps nor moves otherwise lies; one that seems to crawl jumps or climbs. Their heads say nothing of the rig. A clip
 /// whose manifest states `up` stays, and a crawl whose manifest takes any posture.
-pub(crate) fn leave_out_lying(clips: &mut [HumanClip], analyzed: &mut [AnalyzedClip]) {
+pub(crate) fn leave_out_other_up_axes(clips: &mut [HumanClip], analyzed: &mut [AnalyzedClip]) {
     let steps = |found: &AnalyzedClip| found.windows.iter().any(|window| window.stepping().is_some());
     let mut up_axes: BTreeMap<(Rig, String), BTreeSet<String>> = BTreeMap::new();
     for (clip, _) in clips.iter().zip(&*analyzed).filter(|(clip, found)| steps(found) && !clip.seems_to_crawl) {
