@@ -73,7 +73,7 @@ impl Body {
             turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
             is_new: motion.has_jumped,
         };
-        contact.lock_feet(&mut posture, &feet, &frame, skeleton, step);
+        contact.lock_feet(&mut posture, &feet, &room, &frame, skeleton, step);
         posture.bend_legs(skeleton);
         clearance.bring_in(&mut posture.pose, &room, skeleton, step);
         let soles_m = posture.soles_m(skeleton);

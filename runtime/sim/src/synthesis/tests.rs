@@ -9,6 +9,7 @@ use motiondb::motion::{MotionDb, Parameters};
 use proptest::prelude::*;
 
 use crate::maths::arc::parameters_between;
+use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::{BlendDomain, ExampleMix};
 use crate::synthesis::command::plan_requesting;
@@ -110,6 +111,17 @@ fn feet_move_without_jumps() {
         let fastest_mps = balls_m.windows(2).map(|pair| pair[0].distance(pair[1]) / dt_s).fold(0.0, f32::max);
         assert!(fastest_mps < 6.5, "{fastest_mps} m/s"); // four times the fastest walk
     }
+}
+
+#[test]
+fn swinging_feet_move_back_from_a_wall_beside_the_body() {
+    let farthest_m = |room: ElbowRoom| {
+        let walk = walk(4.0, 1.0 / 60.0, |_, _| Plan { room, ..towards(0.0, 1.1) });
+        soles_m(&walk, 0).iter().skip(60).flatten().map(|point_m| point_m.y).fold(f32::NEG_INFINITY, f32::max)
+    };
+    let free_m = farthest_m(ElbowRoom::default());
+    let moved_m = free_m - farthest_m(ElbowRoom::ending_at([free_m * Vec2::Y]));
+    assert!((0.01..0.1).contains(&moved_m), "{moved_m} of {free_m}");
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! Postures and soles are in the root frame (x forward, y left, z up), the locks in the world; metres.
 
 use glam::{Vec2, Vec3};
-use motiondb::body::{RootFrame, Skeleton};
+use motiondb::body::{Joint, RootFrame, Skeleton};
 
+use crate::planning::elbow_room::ElbowRoom;
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot, pivot_rate_rad_s};
+use crate::synthesis::pose::foot_room::back_m;
 use crate::synthesis::pose::leg::FootPose;
-use crate::synthesis::pose::leg_clearance::{LAG_S, away_m};
+use crate::synthesis::pose::leg_clearance::{LAG_S, aside_m};
 use crate::synthesis::pose::pelvis::PelvisDrop;
 use crate::synthesis::pose::posture::Posture;
 
@@ -29,11 +31,13 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
     }
 
-    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require.
+    /// Moves the feet of a posture to their locks, swinging ones so that they keep within the room, and lowers its pelvis
+    /// by what the legs then require.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
         motion: &FootMotion,
+        room: &ElbowRoom,
         frame: &RootFrame,
         skeleton: &Skeleton,
         step: &TimeStep,
@@ -45,14 +49,18 @@ impl ContactState {
         for side in [first, 1 - first] {
             let (foot, other) = (&posture.feet[side], &posture.feet[1 - side]);
             let posed = posed_foot(frame, foot, soles_m[side]);
+            let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
+            let later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
+            let sole_later_m = soles_m[side].map(|point_m| point_m + later_m - foot.ankle_m);
+            let back_m = back_m(sole_later_m, skeleton.segment_radii_m[Joint::TOES[side].index()], room);
             let passes = side != first && self.locks[first].planted();
-            let away_m = if passes {
-                let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
-                let ahead_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
-                frame.forward.rotate(away_m(side, ahead_m, other.ankle_m, locked[first].ankle_m))
+            let aside_m = if passes {
+                let stances_m = [other.ankle_m, locked[first].ankle_m];
+                aside_m(side, [later_m, later_m + back_m.extend(0.0)], stances_m)
             } else {
                 Vec2::ZERO
             };
+            let away_m = frame.forward.rotate(back_m + aside_m);
             let (planted, ahead) = (motion.planted[side], motion.contacts_ahead[side]);
             let lock = self.locks[side].step(&posed, planted, ahead, away_m, pivot_rad, step);
             held[side] = lock.is_held;

@@ -7,9 +7,9 @@
 //! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point
 //!   rests; the foot still rolls, because the pose determines its pitch. In tight turns the foot pivots a little on its
 //!   ball.
-//! - *Swinging*: c and ψ decay, c to a shift that avoids the other leg ([`crate::synthesis::pose::leg_clearance`]),
-//!   by a critically damped filter of the third order that starts at their rates. Neither
-//!   velocity nor acceleration of the foot jumps at toe-off.
+//! - *Swinging*: c and ψ decay, c to a shift that avoids walls, other bodies and the other leg
+//!   ([`crate::synthesis::pose::foot_room`], [`crate::synthesis::pose::leg_clearance`]), by a critically damped filter
+//!   of the third order that starts at their rates. Neither velocity nor acceleration of the foot jumps at toe-off.
 //!
 //! World frame, metres and radians. z is the height above the ground, equal in world and root frame.
 
@@ -115,7 +115,7 @@ impl FootLock {
     }
 
     /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later,
-    /// `away_m` the shift to which a swinging foot moves because the other leg stands in its path, `pivot_rad` the angle
+    /// `away_m` the shift to which a swinging foot moves because something stands in its path, `pivot_rad` the angle
     /// by which a planted foot pivots.
     pub(crate) fn step(
         &mut self,

@@ -17,16 +17,16 @@ const APART_M: f32 = 0.35;
 /// Lag of the filter that moves the foot, s: 3/r of `LOCK_RELEASE_RATE_HZ`.
 pub(crate) const LAG_S: f32 = 0.1;
 /// Greatest displacement, m: a step across ends where the foot can land.
-const AWAY_MAX_M: f32 = 0.15;
+const ASIDE_MAX_M: f32 = 0.15;
 
-/// Displacement of a swinging foot from the pose's, m, given its ankle [`LAG_S`] later and the stance ankle in the pose, and
-/// the stance ankle as it is locked. `side` is that of the swinging foot.
-pub(crate) fn away_m(side: usize, ahead_m: Vec3, stance_m: Vec3, locked_m: Vec3) -> Vec2 {
+/// Displacement of a swinging foot to its side, m, given its ankle [`LAG_S`] later, in the pose and as other displacements
+/// move it, and the stance ankle, in the pose and as it is locked. `side` is that of the swinging foot.
+pub(crate) fn aside_m(side: usize, [posed_m, moved_m]: [Vec3; 2], [stance_m, locked_m]: [Vec3; 2]) -> Vec2 {
     let sign = Side::BOTH[side].sign();
-    let gap_m = |stance_m: Vec3| sign * (ahead_m.y - stance_m.y);
-    let lacking_m = gap_m(stance_m).min(GAP_M) - gap_m(locked_m);
-    let along = ((ahead_m.x - locked_m.x) / APART_M).clamp(-1.0, 1.0);
-    Vec2::new(0.0, sign * (1.0 - along * along) * lacking_m.clamp(0.0, AWAY_MAX_M))
+    let posed_gap_m = sign * (posed_m.y - stance_m.y);
+    let lacking_m = posed_gap_m.min(GAP_M) - sign * (moved_m.y - locked_m.y);
+    let along = ((moved_m.x - locked_m.x) / APART_M).clamp(-1.0, 1.0);
+    Vec2::new(0.0, sign * (1.0 - along * along) * lacking_m.clamp(0.0, ASIDE_MAX_M))
 }
 
 #[cfg(test)]
@@ -35,7 +35,7 @@ mod tests {
 
     /// Displacement of the left foot from 10 cm beside the pose's right one, where that one stands elsewhere.
     fn displaced_m(locked_x_m: f32, locked_y_m: f32) -> Vec2 {
-        away_m(0, Vec3::new(0.0, 0.1, 0.1), Vec3::new(0.0, -0.1, 0.0), Vec3::new(locked_x_m, locked_y_m, 0.0))
+        aside_m(0, [Vec3::new(0.0, 0.1, 0.1); 2], [Vec3::new(0.0, -0.1, 0.0), Vec3::new(locked_x_m, locked_y_m, 0.0)])
     }
 
     #[test]
@@ -43,12 +43,12 @@ mod tests {
         assert!((displaced_m(0.0, 0.0).y - 0.04).abs() < 1e-6);
         assert_eq!(displaced_m(0.0, -0.1), Vec2::ZERO);
         assert_eq!(displaced_m(0.0, -0.3), Vec2::ZERO);
-        assert!(displaced_m(0.0, 0.3).y == AWAY_MAX_M && displaced_m(0.4, 0.0) == Vec2::ZERO);
+        assert!(displaced_m(0.0, 0.3).y == ASIDE_MAX_M && displaced_m(0.4, 0.0) == Vec2::ZERO);
     }
 
     #[test]
     fn a_gap_as_in_the_pose_is_enough() {
-        let narrow = away_m(0, Vec3::new(0.0, 0.03, 0.1), Vec3::new(0.0, -0.03, 0.0), Vec3::new(0.0, -0.03, 0.0));
+        let narrow = aside_m(0, [Vec3::new(0.0, 0.03, 0.1); 2], [Vec3::new(0.0, -0.03, 0.0); 2]);
         assert_eq!(narrow, Vec2::ZERO);
     }
 }

@@ -2,12 +2,13 @@
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`,
-//! `leg_clearance`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step;
-//! `lean` tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
+//! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_room`,
+//! `leg_clearance`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step; `lean`
+//! tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
+pub(crate) mod foot_room;
 pub(crate) mod heel_rise;
 pub(crate) mod ik;
 pub(crate) mod lean;
