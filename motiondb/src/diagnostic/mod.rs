@@ -91,7 +91,8 @@ impl Diagnostic {
             Warning::FeetSlide { from_s, .. }
             | Warning::FeetHardlyPlanted { from_s, .. }
             | Warning::LeansAside { from_s, .. }
-            | Warning::TrunkBent { from_s, .. },
+            | Warning::TrunkBent { from_s, .. }
+            | Warning::TrunkTwisted { from_s, .. },
         ) = &mut self
         {
             *from_s = Some(start_s);

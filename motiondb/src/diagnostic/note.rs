@@ -159,6 +159,18 @@ pub enum Note {
         /// First and last second of the window that gives the example.
         kept_s: [f32; 2],
     },
+    /// The root does not travel, as on a treadmill: the speed is that of the feet over the ground.
+    InPlace {
+        /// That speed, m/s.
+        speed_mps: f32,
+    },
+    /// Movements between rest and steps give no transition, since no clip of the style gives an idle.
+    MovementsWithoutIdle {
+        /// Number of these movements.
+        movements: u32,
+        /// First and last second of the first.
+        first_s: [f32; 2],
+    },
 }
 
 impl Note {
@@ -186,6 +198,8 @@ impl Note {
             Self::HeldPoseCut { .. } => "held_pose_cut",
             Self::OnlyTransitionsUsed { .. } => "only_transitions_used",
             Self::CarriageLeftOut { .. } => "carriage_left_out",
+            Self::InPlace { .. } => "in_place",
+            Self::MovementsWithoutIdle { .. } => "movements_without_idle",
             Self::RestsLeftOut { .. } => "rests_left_out",
         }
     }
@@ -259,6 +273,12 @@ impl fmt::Display for Note {
                 "{moving} moving joints of hands, feet and limbs are not used: they are no fingers, toes or twist bones \
                  by their names, or more than fit; {kept} are kept"
             ),
+            Self::InPlace { speed_mps } => write!(
+                out,
+                "the root does not travel, as on a treadmill; the speed, {speed_mps:.2} m/s, is estimated from the feet, and \
+                 less accurate than that of a root that travels"
+            ),
+            Self::MovementsWithoutIdle { movements, first_s } => movements_without_idle(out, *movements, *first_s),
             Self::LowPartsLeftOut { posture, longest_s, total_s, more } => {
                 low_parts_left_out(out, *posture, *longest_s, *total_s, *more)
             }
@@ -300,6 +320,17 @@ fn corners_unused(out: &mut fmt::Formatter<'_>, [first_s, last_s]: [f32; 2], tur
         1 => out.write_str(", nor 1 further turn"),
         _ => write!(out, ", nor {more} further turns"),
     }
+}
+
+fn movements_without_idle(out: &mut fmt::Formatter<'_>, movements: u32, [first_s, last_s]: [f32; 2]) -> fmt::Result {
+    match movements {
+        1 => write!(out, "a start, stop, turn or step from {first_s:.1} s to {last_s:.1} s gives")?,
+        _ => write!(
+            out,
+            "{movements} starts, stops, turns or steps, the first from {first_s:.1} s to {last_s:.1} s, give"
+        )?,
+    }
+    out.write_str(" no transition, since no clip of this style gives an idle: a body that stands for 2 s")
 }
 
 fn low_parts_left_out(

@@ -178,6 +178,14 @@ pub enum Warning {
         /// Steps a minute at either rate.
         steps_per_min: [f32; 2],
     },
+    /// The shoulders are turned against the hips throughout. The body faces between them, so that a walk straight ahead
+    /// counts as one to the side.
+    TrunkTwisted {
+        /// Mean angle of the shoulders from the hips, degrees; positive to the left.
+        twist_deg: f32,
+        /// Start of the example, s; `None` for the clip's first.
+        from_s: Option<f32>,
+    },
 }
 
 impl Warning {
@@ -209,6 +217,7 @@ impl Warning {
             Self::LeansAside { .. } => "leans_aside",
             Self::TrunkBent { .. } => "trunk_bent",
             Self::RareFrameRate { .. } => "rare_frame_rate",
+            Self::TrunkTwisted { .. } => "trunk_twisted",
         }
     }
 }
@@ -293,6 +302,7 @@ impl fmt::Display for Warning {
                 "the trunk is bent by {lean_deg:.0}°{}; to keep this manner apart, give the clip a `style` in a manifest.toml",
                 of_example(*from_s)
             ),
+            Self::TrunkTwisted { twist_deg, from_s } => trunk_twisted(out, *twist_deg, *from_s),
             Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min } => {
                 rare_frame_rate(out, *frame_rate_hz, *usual_hz, *steps_per_min)
             }
@@ -394,6 +404,17 @@ fn rare_frame_rate(
         out,
         "{steps:.0} steps a minute at the stated {frame_rate_hz:.0} Hz are unusual; at {usual_hz:.0} Hz, the rate of the \
          rig's other clips, they are {at_usual:.0}; state the right `frame_rate_hz` in a manifest.toml"
+    )
+}
+
+fn trunk_twisted(out: &mut fmt::Formatter<'_>, twist_deg: f32, from_s: Option<f32>) -> fmt::Result {
+    let (twist_deg, side) = (twist_deg.abs(), if twist_deg > 0.0 { "left" } else { "right" });
+    write!(
+        out,
+        "the shoulders are turned by {twist_deg:.0}° to the {side} of the hips{}; the body faces between both, so that a walk \
+         straight ahead counts as one to the side. If it carries something or looks aside, give the clip a `style` in a \
+         manifest.toml",
+        of_example(from_s)
     )
 }
 

@@ -63,6 +63,8 @@ const NUMBERED: [&[&str]; 3] = [
         "only_transitions_used",
         "rests_left_out",
         "carriage_left_out",
+        "in_place",
+        "movements_without_idle",
     ],
     &[
         "inhuman_size",
@@ -90,6 +92,7 @@ const NUMBERED: [&[&str]; 3] = [
         "leans_aside",
         "trunk_bent",
         "rare_frame_rate",
+        "trunk_twisted",
     ],
     &[
         "up_contradicted",

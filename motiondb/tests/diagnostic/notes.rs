@@ -40,6 +40,21 @@ pub(crate) fn notes() -> Vec<(Note, &'static str)> {
             Note::WindowsLeftOut { near_equal: 1, doubtful: 2 },
             "left out: 3 steady windows, 1 near-equal to examples and 2 whose feet slide or are hardly planted",
         ),
+        (
+            Note::InPlace { speed_mps: 1.104 },
+            "the root does not travel, as on a treadmill; the speed, 1.10 m/s, is estimated from the feet, and less accurate \
+             than that of a root that travels",
+        ),
+        (
+            Note::MovementsWithoutIdle { movements: 1, first_s: [2.0, 3.25] },
+            "a start, stop, turn or step from 2.0 s to 3.2 s gives no transition, since no clip of this style gives an \
+             idle: a body that stands for 2 s",
+        ),
+        (
+            Note::MovementsWithoutIdle { movements: 3, first_s: [2.0, 3.25] },
+            "3 starts, stops, turns or steps, the first from 2.0 s to 3.2 s, give no transition, since no clip of this \
+             style gives an idle: a body that stands for 2 s",
+        ),
         (Note::ExampleLeftOut { example: "walk".into(), max_examples: 40 }, "`walk` is left out: max_examples = 40"),
         (
             Note::OnlyRestUsed { reason: Unfit::NoWholeStride },

@@ -156,5 +156,11 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
             "184 steps a minute at the stated 120 Hz are unusual; at 60 Hz, the rate of the rig's other clips, they are 92; \
              state the right `frame_rate_hz` in a manifest.toml",
         ),
+        (
+            Warning::TrunkTwisted { twist_deg: -30.4, from_s: None },
+            "the shoulders are turned by 30° to the right of the hips; the body faces between both, so that a walk straight \
+             ahead counts as one to the side. If it carries something or looks aside, give the clip a `style` in a \
+             manifest.toml",
+        ),
     ]
 }

@@ -37,6 +37,7 @@ use crate::select::named_cycles::named_cycles;
 use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
+use crate::transition::movements_without_idle::note_movements_without_idle;
 use crate::transition::only_transitions::note_only_transitions;
 use crate::transition::transitions::transitions;
 use crate::transition::unused_corners::note_unused_corners;
@@ -200,6 +201,7 @@ fn style_database(
     let idles = joined_idles(cut, &selected.cycles, body);
     observer(CompileEvent::Stage("transitions"));
     let actions = in_order(idles, transitions(&clips, &adding, &selected.cycles, body)?);
+    note_movements_without_idle(&mut selected.sources, &clips, &adding);
     note_unused_corners(&mut selected.sources, &adding, &actions);
     note_only_transitions(&mut selected.sources, &actions);
     let extra = set_extra.motion(&selected.cycles, &actions, &clips);

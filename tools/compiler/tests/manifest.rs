@@ -81,6 +81,18 @@ fn a_table_leaves_other_clips_in_use() {
 }
 
 #[test]
+fn a_clip_of_the_folder_is_used_once_by_whatever_path() {
+    let manifest = |path: &str| format!("[[clips]]\npath = '{path}'\nname = 'stroll'\n");
+    let all = ["idle", "stroll", "turn_090_left", "turn_090_left_mirrored", "walk_140", "walk_180"];
+    let over_parent = manifest("../over_parent/inner/../walk_110.bvh");
+    assert_eq!(names(&compiled("over_parent", &over_parent)), all);
+    let absolute = folder("absolute", "");
+    fs::write(absolute.join("manifest.toml"), manifest(&absolute.join("walk_110.bvh").display().to_string())).unwrap();
+    let other_spelling = Manifest::read(&absolute.join("inner/../manifest.toml")).unwrap();
+    assert_eq!(names(&compile_manifest(&other_spelling, &|_| ()).unwrap().db), all);
+}
+
+#[test]
 fn the_innermost_table_decides_what_is_skipped() {
     let one = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nskip = false\n");
     assert_eq!(names(&compiled("only_one", &one)), ["walk_110"]);

@@ -124,7 +124,10 @@ impl AnalyzedClip {
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
         let left_out = LeftOutWindows { doubtful, ..LeftOutWindows::default() };
-        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out);
+        let steps = windows.iter().any(|window| window.stepping().is_some());
+        let in_place = clip.in_place_mps.filter(|_| steps);
+        let in_place = in_place.map(|ground_mps| Note::InPlace { speed_mps: ground_mps.length() as f32 });
+        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).chain(in_place);
         let diagnostics = notes.map(Diagnostic::Note).collect();
         Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
@@ -393,11 +396,30 @@ impl ClipOnBody<'_> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::action::idle_loop::idle_loop;
     use crate::cycle::standing_cycle::standing_cycle;
     use crate::retarget::human_clip::HumanPose;
     use crate::synthetic::{SyntheticWalk, idle, performance, walk};
+
+    #[test]
+    fn a_walk_in_place_is_named() {
+        let codes = |in_place_mps: Option<DVec2>| {
+            let mut clip = walk("walk", SyntheticWalk::at(1.1, 0.0, 0.0));
+            // Synthetic walks head for .4 rad.
+            let root_mps = DVec2::from_angle(0.4).rotate(in_place_mps.unwrap_or_default());
+            for (frame, pose) in clip.frames.iter_mut().enumerate() {
+                pose.pelvis_m -= (frame as f64 / clip.frame_rate_hz * root_mps).extend(0.0);
+            }
+            clip.in_place_mps = in_place_mps;
+            let body = clip.body.clone();
+            let found = AnalyzedClip::of(&mut clip, &body).diagnostics;
+            found.iter().map(Diagnostic::code).collect::<Vec<_>>()
+        };
+        assert_eq!([codes(None), codes(Some(DVec2::new(1.1, 0.0)))], [vec![], vec!["in_place"]]);
+    }
 
     #[test]
     fn rests_and_movements_are_alike_without_the_other_poses() {

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
 use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
 use crate::cycle::gait_cycle::GaitCycle;
-use crate::cycle::leans::lean_warnings;
+use crate::cycle::leans::{bent_trunk, lean_warnings};
 use crate::cycle::rate_snapping::snap_rates;
 use crate::cycle::rest::Rest;
 use crate::gait::stride::Stride;
@@ -105,7 +105,13 @@ impl SteadyCycle {
         }
         let flaws = flaws_of_rest(&rest);
         let motion = SteadyMotion::Stands(frames.clone());
-        Ok(Self { window_s, motion, flaws, is_doubtful: false, diagnostics: Vec::new() })
+        Ok(Self {
+            window_s,
+            motion,
+            flaws,
+            is_doubtful: false,
+            diagnostics: bent_trunk(rest.lean_deg).into_iter().collect(),
+        })
     }
 
     /// The mean stride of a body that steps.

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use fbcrowd_jobs::json_schema::motion::{ActionKindMirror, CoverageGapMirror, ExampleQualityMirror, FindingMirror};
 use fbcrowd_jobs::stages::StageTime;
-use motiondb::diagnostic::{Diagnostic, Severity};
+use motiondb::diagnostic::{Diagnostic, Note, Severity};
 use motiondb::motion::{ActionKind, MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::quality::example_quality::{self, ExampleQuality};
@@ -202,6 +202,7 @@ impl CompileReport {
             self.diagnostics.push(ClipDiagnostic { file, clip, diagnostic: diagnostic.clone() });
         }
         if examples.is_empty() && actions.is_empty() {
+            reasons.extend(all_left_out(&source.diagnostics));
             self.unused.push(UnusedClip { file, clip, reason: reasons.join("; ") });
         } else {
             self.used.push(UsedClip { file, clip, examples, actions, style: style.to_owned() });
@@ -212,6 +213,15 @@ impl CompileReport {
     pub(crate) fn of_severity(&self, wanted: Severity) -> impl Iterator<Item = &ClipDiagnostic> {
         self.diagnostics.iter().filter(move |found| found.diagnostic.severity() == wanted)
     }
+}
+
+/// The reason why a clip gives nothing whose examples `max_examples` leaves out.
+fn all_left_out(diagnostics: &[Diagnostic]) -> Option<String> {
+    let mut limits = diagnostics.iter().filter_map(|diagnostic| match diagnostic {
+        Diagnostic::Note(Note::ExampleLeftOut { max_examples, .. }) => Some(max_examples),
+        _ => None,
+    });
+    limits.next().map(|max_examples| format!("left out: max_examples = {max_examples}"))
 }
 
 impl From<Rejection> for UnusedClip {

@@ -50,10 +50,28 @@ pub(crate) fn normal_path(path: &Path) -> PathBuf {
     path.components().filter(|part| !matches!(part, Component::CurDir)).collect()
 }
 
+/// A stated path that is absolute or leads over `..`, as the listing of the manifest's folder has it; none for other paths,
+/// and for what is not in that folder.
+fn below_manifest(source: &SourceText, stated: &Path) -> Option<PathBuf> {
+    if !stated.components().any(|part| matches!(part, Component::ParentDir | Component::RootDir)) {
+        return None;
+    }
+    let folder = normal_path(&source.beside(Path::new("")));
+    let path = source.beside(stated);
+    let real_folder = or_current_folder(&folder).canonicalize().ok()?;
+    // The last part may be a link, which the listing has by its own name.
+    let real_path = match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) => parent.canonicalize().ok()?.join(name),
+        _ => path.canonicalize().ok()?,
+    };
+    Some(folder.join(real_path.strip_prefix(real_folder).ok()?))
+}
+
 /// The file or folder that a table names.
 fn existing_path(source: &SourceText, table: &Spanned<ClipsTable>) -> Result<PathBuf, Invalid> {
     let stated = &table.get_ref().path;
-    let path = normal_path(&source.beside(stated.get_ref()));
+    let path =
+        below_manifest(source, stated.get_ref()).unwrap_or_else(|| normal_path(&source.beside(stated.get_ref())));
     if or_current_folder(&path).exists() {
         return Ok(path);
     }
