@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::action::cut_action::CutAction;
 use crate::action::idle_loop::{IdleLoop, idle_loop};
-use crate::cycle::analyzed_clip::{AnalyzedClip, ClipTimes};
+use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::flaws::{flaws_of_rest, standing_flaws};
 use crate::cycle::rest::Rest;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
@@ -51,9 +51,7 @@ fn rest_candidates(index: usize, clip: &HumanClip, found: &AnalyzedClip, body: &
 
 fn idle(rest: &RestCandidate, clip: &HumanClip, found: &AnalyzedClip, body: &HumanBody) -> CutAction {
     let IdleLoop { frames, poses } = idle_loop(&found.grounded, body, &rest.frames);
-    let before = found.grounded.loop_frames().unwrap_or(0) as f64;
-    let times = ClipTimes::of(clip, found.frame_count);
-    let window_s = frames.map(|frame| times.in_file_s(frame - before));
+    let window_s = found.in_file_s(clip, frames);
     let is_whole = found.windows.len() == 1 && found.rests.len() == 1;
     CutAction {
         name: window_name(clip, found.frame_count, usize::from(!is_whole), window_s),

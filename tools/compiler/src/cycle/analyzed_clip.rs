@@ -173,6 +173,12 @@ impl AnalyzedClip {
         cycles.flatten().chain(self.grounded.poses.own_mut()).for_each(|pose| bend_head(pose, bend));
     }
 
+    /// Seconds in the file of two frames of the analysed clip, in which a round of a loop comes before the clip's own frames.
+    pub(crate) fn in_file_s(&self, clip: &HumanClip, frames: [f64; 2]) -> [f64; 2] {
+        let before = self.grounded.loop_frames().unwrap_or(0) as f64;
+        frames.map(|frame| ClipTimes::of(clip, self.frame_count).in_file_s(frame - before))
+    }
+
     /// Duration from the first frame to the last, s.
     pub(crate) fn duration_s(&self) -> f64 {
         (self.frame_count - 1) as f64 / self.grounded.frame_rate_hz
@@ -286,7 +292,7 @@ fn clip_corners(clip: &HumanClip, gait: &GaitAnalysis, times: &ClipTimes, loop_f
 }
 
 /// The frames of a clip in its file.
-pub(crate) struct ClipTimes {
+struct ClipTimes {
     /// Number of the file's frames before the first frame of the clip.
     first_frame: usize,
     /// Number of frames.
@@ -296,12 +302,12 @@ pub(crate) struct ClipTimes {
 
 impl ClipTimes {
     /// The frames of a clip that has, or had, so many.
-    pub(crate) fn of(clip: &HumanClip, frame_count: usize) -> Self {
+    fn of(clip: &HumanClip, frame_count: usize) -> Self {
         Self { first_frame: clip.first_frame, frame_count, frame_rate_hz: clip.frame_rate_hz }
     }
 
     /// Time of a frame of the clip, s from the file's first frame.
-    pub(crate) fn in_file_s(&self, frame: f64) -> f64 {
+    fn in_file_s(&self, frame: f64) -> f64 {
         let last_frame = (self.frame_count - 1) as f64;
         (self.first_frame as f64 + frame.clamp(0.0, last_frame)) / self.frame_rate_hz
     }

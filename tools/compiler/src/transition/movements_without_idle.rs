@@ -4,7 +4,7 @@
 use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::SourceRecord;
 
-use crate::cycle::analyzed_clip::{AnalyzedClip, ClipTimes};
+use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::gait::movements::{Movement, MovementKind};
 use crate::retarget::human_clip::HumanClip;
 
@@ -21,11 +21,9 @@ pub(crate) fn note_movements_without_idle(
     for ((source, clip), found) in sources.iter_mut().zip(clips).zip(analyzed) {
         let movements = apart(&found.movements);
         let Some(first) = movements.first() else { continue };
-        let before = found.grounded.loop_frames().unwrap_or(0) as f64;
-        let times = ClipTimes::of(clip, found.frame_count);
         source.diagnostics.push(Diagnostic::Note(Note::MovementsWithoutIdle {
             movements: movements.len() as u32,
-            first_s: first.map(|frame| times.in_file_s(frame - before) as f32),
+            first_s: found.in_file_s(clip, *first).map(|time_s| time_s as f32),
         }));
     }
 }

@@ -10,7 +10,7 @@ use motiondb::motion::ActionKind;
 use rayon::prelude::*;
 
 use crate::action::joined_action::{JoinedAction, best_standing};
-use crate::cycle::analyzed_clip::{AnalyzedClip, ClipTimes};
+use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::error::CompileError;
 use crate::gait::movements::{Movement, MovementKind};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
@@ -95,10 +95,7 @@ fn of_clip(
 
 /// First and last second of a transition in its file.
 fn window_s(found: &RecordedTransition, clips: &[HumanClip], analyzed: &[AnalyzedClip]) -> [f64; 2] {
-    let (clip, analyzed) = (&clips[found.source], &analyzed[found.source]);
-    let before = analyzed.grounded.loop_frames().unwrap_or(0) as f64;
-    let times = ClipTimes::of(clip, analyzed.frame_count);
-    found.cut.map(|frame| times.in_file_s(frame - before))
+    analyzed[found.source].in_file_s(&clips[found.source], found.cut)
 }
 
 fn name(
