@@ -6,8 +6,8 @@
 //! agent. Two bodies that keep to their half-planes do not meet. Where there is too little room for all, the later
 //! sides count more; walls come last, since the other agent can yield too.
 //!
-//! The planner finds them; the synthesis keeps the upper body (`body_clearance`, `squeeze`) and swinging feet
-//! (`foot_room`) within them. World axes, relative to the agent's centre, metres.
+//! The planner finds them; the synthesis moves the upper body (`body_clearance`, `squeeze`) and swinging feet
+//! (`foot_room`) back towards them. World axes, relative to the agent's centre, metres.
 
 use glam::Vec2;
 

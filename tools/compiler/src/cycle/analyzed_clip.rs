@@ -124,10 +124,7 @@ impl AnalyzedClip {
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
         let left_out = LeftOutWindows { doubtful, ..LeftOutWindows::default() };
-        let steps = windows.iter().any(|window| window.stepping().is_some());
-        let in_place = clip.in_place_mps.filter(|_| steps);
-        let in_place = in_place.map(|ground_mps| Note::InPlace { speed_mps: ground_mps.length() as f32 });
-        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).chain(in_place);
+        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).chain(in_place_note(clip, &windows));
         let diagnostics = notes.map(Diagnostic::Note).collect();
         Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
     }
@@ -173,7 +170,8 @@ impl AnalyzedClip {
         cycles.flatten().chain(self.grounded.poses.own_mut()).for_each(|pose| bend_head(pose, bend));
     }
 
-    /// Seconds in the file of two frames of the analysed clip, in which a round of a loop comes before the clip's own frames.
+    /// Times of two frames of the analysed clip, s from the file's first frame. The analysed clip of a loop begins a round
+    /// before the clip.
     pub(crate) fn in_file_s(&self, clip: &HumanClip, frames: [f64; 2]) -> [f64; 2] {
         let before = self.grounded.loop_frames().unwrap_or(0) as f64;
         frames.map(|frame| ClipTimes::of(clip, self.frame_count).in_file_s(frame - before))
@@ -219,6 +217,12 @@ impl LeftOutWindows {
         let [longest_s, kept_s] = self.longest_of_other_carriage_s.map(|window_s| window_s.map(|time_s| time_s as f32));
         plain.into_iter().chain((windows > 0).then_some(Note::CarriageLeftOut { windows, longest_s, kept_s }))
     }
+}
+
+/// The note on a clip in place that gives a stride.
+fn in_place_note(clip: &HumanClip, windows: &[SteadyCycle]) -> Option<Note> {
+    let ground_mps = clip.in_place_mps.filter(|_| windows.iter().any(|window| window.stepping().is_some()))?;
+    Some(Note::InPlace { speed_mps: ground_mps.length() as f32 })
 }
 
 /// Frames and so many before and after them.

@@ -5,18 +5,18 @@
 //! metres).
 //!
 //! Read `analyzed_clip` (the chapter's steps), then `gait_cycle` with `mirrored`, `mean_stride` with `loop_closure`,
-//! `standing_cycle`; then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `leans`, `flaws`,
-//! `rate_cells`; and `corners`, which no cycle shows.
+//! `standing_cycle`; then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`,
+//! `posture_warnings`, `flaws`, `rate_cells`; and `corners`, which no cycle shows.
 
 pub(crate) mod analyzed_clip;
 pub(crate) mod corners;
 pub(crate) mod flaws;
 pub(crate) mod foot_slide;
 pub(crate) mod gait_cycle;
-mod leans;
 pub(crate) mod loop_closure;
 pub(crate) mod mean_stride;
 pub(crate) mod mirrored;
+mod posture_warnings;
 pub(crate) mod rate_cells;
 pub(crate) mod rate_snapping;
 pub(crate) mod rest;

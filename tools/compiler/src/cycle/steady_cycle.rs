@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
 use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
 use crate::cycle::gait_cycle::GaitCycle;
-use crate::cycle::leans::{bent_trunk, lean_warnings};
+use crate::cycle::posture_warnings::{bent_trunk, posture_warnings};
 use crate::cycle::rate_snapping::snap_rates;
 use crate::cycle::rest::Rest;
 use crate::gait::stride::Stride;
@@ -80,7 +80,7 @@ impl SteadyCycle {
         let warnings = foot_warnings(&cycle.rates, &slide);
         let is_doubtful = !warnings.is_empty();
         diagnostics.extend(warnings);
-        diagnostics.extend(lean_warnings(&cycle, body));
+        diagnostics.extend(posture_warnings(&cycle, body));
         let flaws = flaws_of_strides(strides, &cycle.rates, &slide);
         Ok(Self { window_s, motion: SteadyMotion::Steps(Box::new(cycle)), flaws, is_doubtful, diagnostics })
     }

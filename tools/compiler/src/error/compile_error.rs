@@ -132,8 +132,11 @@ pub(crate) fn transition_remedy(kind: ActionKind) -> String {
 /// The styles that a set has, and what to do.
 fn of_styles(styles: &[String]) -> String {
     match styles {
-        [] => "the clips have none: state `style` in a manifest.toml; folders of at least two manners side by side are styles, too"
-            .to_owned(),
+        [] => {
+            "the clips have none: state `style` in a manifest.toml; folders of at least two manners side by side are \
+               styles, too"
+                .to_owned()
+        }
         names => format!("the clips have {}", names.join(", ")),
     }
 }

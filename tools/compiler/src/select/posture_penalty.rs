@@ -1,5 +1,5 @@
-//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm, arms that carry, a limp. It is a speed, m/s, so that it can be weighed
-//! against the speed of another gait.
+//! Posture penalty of a gait: bent legs, a bent trunk, a raised arm, arms that carry, a limp. It is a speed, m/s, so that
+//! it can be weighed against the speed of another gait.
 
 use motiondb::body::Joint;
 use motiondb::statistics::mean;

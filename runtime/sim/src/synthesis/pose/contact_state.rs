@@ -31,8 +31,8 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
     }
 
-    /// Moves the feet of a posture to their locks, swinging ones so that they keep within the room, and lowers its pelvis
-    /// by what the legs then require.
+    /// Moves the feet of a posture to their locks, swinging ones back towards the room and past the stance leg, and lowers
+    /// its pelvis by what the legs then require.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
@@ -52,15 +52,16 @@ impl ContactState {
             let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
             let later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
             let sole_later_m = soles_m[side].map(|point_m| point_m + later_m - foot.ankle_m);
-            let back_m = back_m(sole_later_m, skeleton.segment_radii_m[Joint::TOES[side].index()], room);
+            let radius_m = skeleton.segment_radii_m[Joint::TOES[side].index()];
+            let into_room_m = back_m(sole_later_m, radius_m, room);
             let passes = side != first && self.locks[first].planted();
-            let aside_m = if passes {
+            let past_stance_m = if passes {
                 let stances_m = [other.ankle_m, locked[first].ankle_m];
-                aside_m(side, [later_m, later_m + back_m.extend(0.0)], stances_m)
+                aside_m(side, [later_m, later_m + into_room_m.extend(0.0)], stances_m)
             } else {
                 Vec2::ZERO
             };
-            let away_m = frame.forward.rotate(back_m + aside_m);
+            let away_m = frame.forward.rotate(into_room_m + past_stance_m);
             let (planted, ahead) = (motion.planted[side], motion.contacts_ahead[side]);
             let lock = self.locks[side].step(&posed, planted, ahead, away_m, pivot_rad, step);
             held[side] = lock.is_held;

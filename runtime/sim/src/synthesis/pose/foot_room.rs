@@ -14,7 +14,7 @@ use crate::planning::elbow_room::ElbowRoom;
 /// Greatest displacement, m: farther back a foot would land too far from where the leg swings to (docs/tuning.md).
 const BACK_MAX_M: f32 = 0.1;
 
-/// Displacement by which a foot keeps within the room, m, given its sole where it will be, and the radius of the foot.
+/// Displacement by which a foot moves back towards the room, m, given its sole where it will be, and the radius of the foot.
 pub(crate) fn back_m(sole_m: [Vec3; 3], radius_m: f32, room: &ElbowRoom) -> Vec2 {
     let mut back_m = Vec2::ZERO;
     for side in room.sides() {

@@ -22,8 +22,8 @@ const TRUNK_MAX_DEG: f64 = 40.0;
 /// reaches it.
 const TWIST_MAX_DEG: f64 = 20.0;
 
-/// The warnings about how a body leans, and how it twists.
-pub(crate) fn lean_warnings(cycle: &GaitCycle, body: &HumanBody) -> impl Iterator<Item = Diagnostic> {
+/// The warnings about how the body of a cycle leans and twists.
+pub(crate) fn posture_warnings(cycle: &GaitCycle, body: &HumanBody) -> impl Iterator<Item = Diagnostic> {
     let joints = cycle.joints(body);
     let upward: DVec3 = joints.iter().map(ankles_to_neck).sum();
     let aside_deg = libm::atan2(upward.y, upward.z).to_degrees();
@@ -81,7 +81,7 @@ mod tests {
             let spine = &mut pose.rotations[Joint::SpineLower.index()];
             *spine = trunk * *spine;
         }
-        lean_warnings(&cycle, &clip.body).collect()
+        posture_warnings(&cycle, &clip.body).collect()
     }
 
     #[test]
