@@ -4,8 +4,10 @@
 //! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position
 //! and the remedy. It does not name the clip: reports print the name before it.
 //!
-//! Read `note`, `warning` and `unfit`, the diagnostics of each severity, with `posture`, an argument of two of them.
+//! Read `note`, `warning` and `unfit`, the diagnostics of each severity, with their arguments `posture` and
+//! `held_part`.
 
+mod held_part;
 mod note;
 mod posture;
 pub mod unfit;
@@ -15,6 +17,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+pub use held_part::HeldPart;
 pub use note::Note;
 pub use posture::Posture;
 pub use unfit::Unfit;
@@ -92,7 +95,8 @@ impl Diagnostic {
             | Warning::FeetHardlyPlanted { from_s, .. }
             | Warning::LeansAside { from_s, .. }
             | Warning::TrunkBent { from_s, .. }
-            | Warning::TrunkTwisted { from_s, .. },
+            | Warning::TrunkTwisted { from_s, .. }
+            | Warning::CarriageUnlike { from_s, .. },
         ) = &mut self
         {
             *from_s = Some(start_s);

@@ -171,6 +171,11 @@ pub enum Note {
         /// First and last second of the first.
         first_s: [f32; 2],
     },
+    /// No clip of the style stands for long: bodies stand as in a brief rest of this one.
+    BriefRestUsed {
+        /// First and last second of the rest.
+        rest_s: [f32; 2],
+    },
 }
 
 impl Note {
@@ -201,6 +206,7 @@ impl Note {
             Self::InPlace { .. } => "in_place",
             Self::MovementsWithoutIdle { .. } => "movements_without_idle",
             Self::RestsLeftOut { .. } => "rests_left_out",
+            Self::BriefRestUsed { .. } => "brief_rest_used",
         }
     }
 }
@@ -279,6 +285,10 @@ impl fmt::Display for Note {
                  less accurate than that of a root that travels"
             ),
             Self::MovementsWithoutIdle { movements, first_s } => movements_without_idle(out, *movements, *first_s),
+            Self::BriefRestUsed { rest_s: [first_s, last_s] } => write!(
+                out,
+                "bodies stand as from {first_s:.2} to {last_s:.2} s, since no clip stands for long; add an idle of some seconds"
+            ),
             Self::LowPartsLeftOut { posture, longest_s, total_s, more } => {
                 low_parts_left_out(out, *posture, *longest_s, *total_s, *more)
             }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::{ClipEnd, and_left_out, and_mirrored, of_example};
+use crate::diagnostic::{ClipEnd, HeldPart, and_left_out, and_mirrored, of_example};
 
 /// A doubtful fact about a clip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -186,6 +186,25 @@ pub enum Warning {
         /// Start of the example, s; `None` for the clip's first.
         from_s: Option<f32>,
     },
+    /// Frames are missing: the others are played as if none were, so all speeds are too high.
+    FramesDropped {
+        /// Share of the frames that are missing.
+        share: f32,
+    },
+    /// Both feet point away from the facing that a manifest states.
+    ForwardAgainstFeet {
+        /// The stated axis.
+        forward: String,
+    },
+    /// The body holds a part otherwise than in the other walks of its style.
+    CarriageUnlike {
+        /// The part.
+        part: HeldPart,
+        /// Angle between its mean direction and that in the other walks, degrees.
+        angle_deg: f32,
+        /// Start of the example, s; `None` for the clip's first.
+        from_s: Option<f32>,
+    },
 }
 
 impl Warning {
@@ -218,6 +237,9 @@ impl Warning {
             Self::TrunkBent { .. } => "trunk_bent",
             Self::RareFrameRate { .. } => "rare_frame_rate",
             Self::TrunkTwisted { .. } => "trunk_twisted",
+            Self::FramesDropped { .. } => "frames_dropped",
+            Self::ForwardAgainstFeet { .. } => "forward_against_feet",
+            Self::CarriageUnlike { .. } => "carriage_unlike",
         }
     }
 }
@@ -303,6 +325,23 @@ impl fmt::Display for Warning {
                 of_example(*from_s)
             ),
             Self::TrunkTwisted { twist_deg, from_s } => trunk_twisted(out, *twist_deg, *from_s),
+            Self::FramesDropped { share } => write!(
+                out,
+                "about {:.0} % of the frames are missing, so the motion is too fast by as much; record or export the clip \
+                 again without gaps",
+                100.0 * share
+            ),
+            Self::ForwardAgainstFeet { forward } => write!(
+                out,
+                "both feet point away from {forward}, so the body walks backward; correct `forward` in the manifest.toml"
+            ),
+            Self::CarriageUnlike { part, angle_deg, from_s } => write!(
+                out,
+                "{} is held {angle_deg:.0}° off how the other walks hold it{}; to keep this manner apart, give the clip a \
+                 `style` in a manifest.toml",
+                part.name(),
+                of_example(*from_s)
+            ),
             Self::RareFrameRate { frame_rate_hz, usual_hz, steps_per_min } => {
                 rare_frame_rate(out, *frame_rate_hz, *usual_hz, *steps_per_min)
             }

@@ -65,6 +65,7 @@ const NUMBERED: [&[&str]; 3] = [
         "carriage_left_out",
         "in_place",
         "movements_without_idle",
+        "brief_rest_used",
     ],
     &[
         "inhuman_size",
@@ -93,6 +94,9 @@ const NUMBERED: [&[&str]; 3] = [
         "trunk_bent",
         "rare_frame_rate",
         "trunk_twisted",
+        "frames_dropped",
+        "forward_against_feet",
+        "carriage_unlike",
     ],
     &[
         "up_contradicted",

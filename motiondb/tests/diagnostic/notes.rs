@@ -55,6 +55,10 @@ pub(crate) fn notes() -> Vec<(Note, &'static str)> {
             "3 starts, stops, turns or steps, the first from 2.0 s to 3.2 s, give no transition, since no clip of this \
              style gives an idle: a body that stands for 2 s",
         ),
+        (
+            Note::BriefRestUsed { rest_s: [12.0, 12.8] },
+            "bodies stand as from 12.00 to 12.80 s, since no clip stands for long; add an idle of some seconds",
+        ),
         (Note::ExampleLeftOut { example: "walk".into(), max_examples: 40 }, "`walk` is left out: max_examples = 40"),
         (
             Note::OnlyRestUsed { reason: Unfit::NoWholeStride },

@@ -2,7 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use motiondb::diagnostic::{ClipEnd, Warning};
+use motiondb::diagnostic::{ClipEnd, HeldPart, Warning};
 
 pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
     vec![
@@ -161,6 +161,20 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
             "the shoulders are turned by 30° to the right of the hips; the body faces between both, so that a walk straight \
              ahead counts as one to the side. If it carries something or looks aside, give the clip a `style` in a \
              manifest.toml",
+        ),
+        (
+            Warning::FramesDropped { share: 0.148 },
+            "about 15 % of the frames are missing, so the motion is too fast by as much; record or export the clip again \
+             without gaps",
+        ),
+        (
+            Warning::ForwardAgainstFeet { forward: "-Z".into() },
+            "both feet point away from -Z, so the body walks backward; correct `forward` in the manifest.toml",
+        ),
+        (
+            Warning::CarriageUnlike { part: HeldPart::LeftArm, angle_deg: 61.6, from_s: Some(12.0) },
+            "the left arm is held 62° off how the other walks hold it in the example from 12.0 s on; to keep this manner \
+             apart, give the clip a `style` in a manifest.toml",
         ),
     ]
 }

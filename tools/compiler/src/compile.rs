@@ -34,6 +34,8 @@ use crate::select::clean_cycles::without_reached_doubtful;
 use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
+use crate::select::unlike_carriages::warn_of_unlike_carriages;
+use crate::styles::brief_rest::stand_briefly;
 use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
@@ -177,7 +179,9 @@ fn database(
     let parts = by_style(clips, compared, analyzed).into_iter();
     let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body, &log)).collect();
     cache.into_iter().for_each(|cache| cache.close(&log));
+    parts.iter_mut().take(1).for_each(|first| stand_briefly(first, &body));
     lend_idle(&mut parts);
+    parts.iter_mut().for_each(|part| stand_briefly(part, &body));
     let databases: Result<Vec<MotionDb>, CompileError> =
         parts.into_iter().map(|part| style_database(part, &body, &extra, options, observer)).collect();
     let db = joined(databases?).ok_or(CompileError::NoClips)?;
@@ -195,7 +199,8 @@ fn style_database(
 ) -> Result<MotionDb, CompileError> {
     let cut = idles(&clips, &analyzed, body);
     let clean = if options.keep_doubtful { analyzed } else { without_reached_doubtful(&clips, analyzed) };
-    let adding = windows_that_add(clean);
+    let mut adding = windows_that_add(clean);
+    warn_of_unlike_carriages(&mut adding, body);
     let named = named_cycles(&clips, &adding, body)?;
     let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);

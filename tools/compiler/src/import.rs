@@ -8,7 +8,7 @@
 //! 4. metres, z up ([`crate::retarget::units`]); of a body that crawls, up as its rest pose stands
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
 //!    ends
-//! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`)
+//! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`, `dropped_frames`)
 //! 7. parts in which the body is not upright (`posture`) or stands in a bind pose (`spread_arms`), canonical humanoid
 //!    (`to_humanoid`), check of its body → `HumanClip`
 
@@ -20,7 +20,7 @@ use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
-use crate::checks::{lengthwise_path, level_ground, plausibility, pose_jumps, spread_arms};
+use crate::checks::{dropped_frames, lengthwise_path, level_ground, plausibility, pose_jumps, spread_arms};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
@@ -198,7 +198,8 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         return Err(RejectionReason::NoRotations);
     }
     if let Some(forward) = settings.forward {
-        stated_facing::apply(&clip, &mut roles, forward)?;
+        let against_toes = stated_facing::apply(&clip, &mut roles, forward)?;
+        clip.diagnostics.extend(against_toes.map(Diagnostic::Warning));
     }
     if roles.are_names_mirrored {
         clip.diagnostics.push(Diagnostic::Warning(Warning::SidesExchanged));
@@ -234,7 +235,8 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     }
     // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
     let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
-    clip.diagnostics.extend(jump.map(Diagnostic::Warning));
+    let dropped = dropped_frames::warning(&clip, &roles).filter(|_| !is_frame_time_wrong);
+    clip.diagnostics.extend(jump.into_iter().chain(dropped).map(Diagnostic::Warning));
     let low_parts = match contradicted_up {
         None => posture::low_parts(&clip, &roles, &parameters),
         Some(_) => Vec::new(),
@@ -251,7 +253,10 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     if !human.frames.iter().all(is_finite) {
         return Err(RejectionReason::Degenerate);
     }
-    plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
+    match plausibility::impossible_body(&human.body) {
+        Some(reason) => Err(settings.contradicted_unit(&reason).unwrap_or(reason)),
+        None => Ok(human),
+    }
 }
 
 /// What the settings of a clip state about its part in the set.
@@ -263,6 +268,7 @@ fn choices(settings: &ClipSettings) -> Choices {
         mirror: settings.mirror,
         transition: settings.transition,
         is_cut: settings.frames.is_some(),
+        is_name_stated: settings.name.is_some(),
         ..Choices::default()
     }
 }

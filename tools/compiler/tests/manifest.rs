@@ -93,6 +93,14 @@ fn a_clip_of_the_folder_is_used_once_by_whatever_path() {
 }
 
 #[test]
+fn a_stated_name_goes_to_its_clip() {
+    let manifest = "[[clips]]\npath = 'inner/walk_180.bvh'\nname = 'walk_110'\n";
+    let db = compiled("taken_name", manifest);
+    let speeds_mps = ["walk_110", "walk_110_2"].map(|name| example(&db, name).parameters.speed_mps);
+    assert!(speeds_mps[0] > 1.7 && speeds_mps[1] < 1.2, "{speeds_mps:?}");
+}
+
+#[test]
 fn the_innermost_table_decides_what_is_skipped() {
     let one = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nskip = false\n");
     assert_eq!(names(&compiled("only_one", &one)), ["walk_110"]);
@@ -185,14 +193,13 @@ fn a_joint_map_finds_the_same_body() {
 
 #[test]
 fn a_stated_facing_decides_left_and_right() {
-    let speed_mps = |test: &str, forward: &str| {
-        let db = compile(&folder(test, &format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n")))
-            .unwrap()
-            .db;
-        db.sources[0].speed_mps
+    let walk = |test: &str, forward: &str| {
+        let manifest = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n");
+        let source = compiled(test, &manifest).sources.remove(0);
+        let is_warned = source.diagnostics.iter().any(|found| found.code() == "forward_against_feet");
+        (source.speed_mps > 1.0, source.speed_mps < -0.5, is_warned)
     };
-    let speeds = [speed_mps("facing", "+Z"), speed_mps("backing", "-Z")];
-    assert!(speeds.iter().any(|&speed| speed > 1.0) && speeds.iter().any(|&speed| speed < 0.5), "{speeds:?}");
+    assert_eq!([walk("facing", "+Z"), walk("backing", "-Z")], [(true, false, false), (false, true, true)]);
 }
 
 #[test]
@@ -211,6 +218,7 @@ fn mistakes_are_shown_at_their_position() {
     check("backwards", "frames = [9, 3]\n", "[9, 3]", &["from frame 9 to 3"]);
     check("three", "frames = [1, 9, 3]\n", "[1, 9, 3]", &["the first and the last"]);
     check("unit", "metres_per_unit = 0.0\n", "0.0", &["metres_per_unit"]);
+    check("giant", "metres_per_unit = 1.0\n", "1.0", &["with 1 m a unit", "thigh and shank"]);
     check("rate", "frame_rate_hz = nan\n", "nan", &["frame_rate_hz"]);
     check("animated", "animation = 'Run'\n", "'Run'", &["`Run`"]);
     check("facing_up", "forward = '+Y'\n", "'+Y'", &["up"]);

@@ -43,6 +43,8 @@ pub(crate) struct AnalyzedClip {
     pub(crate) windows: Vec<SteadyCycle>,
     /// Frames of the clip in which the body stands, in order of time; of a loop within its middle round.
     pub(crate) rests: Vec<Range<usize>>,
+    /// Frames in which a body without such rests stands briefly, as `rests`; they count where no other clip stands.
+    pub(crate) brief_rests: Vec<Range<usize>>,
     /// Stances of each foot, `[left, right]`.
     pub(crate) stances: [Vec<FootStance>; 2],
     /// Where transitions may lie, in order of time; of a loop within its middle round.
@@ -107,26 +109,32 @@ impl AnalyzedClip {
         let stances = performer.gait.clearest_stances().clone();
         let movements = clip_movements(clip, &performer.gait, &grounded);
         let corners = clip_corners(clip, &performer.gait, &times, grounded.loop_frames());
-        let rests = performer.gait.rests;
+        // The parts of a clip that import rejects, or of which a transition is stated, give nothing and are not reported.
+        let gives_parts = clip.unfit.is_none() && clip.choices.transition.is_none();
+        let (rests, mut brief_rests) = (performer.gait.rests, performer.gait.brief_rests);
+        brief_rests.retain(|rest| gives_parts && Rest::of(&grounded, rest, body).unfit().is_none());
         let low_parts = times.low_parts_note(clip.left_out_parts());
         let rests_left_out = times.rests_note(clip, &rests, &grounded, body);
-        if windows.is_empty() {
+        let mut left_out = LeftOutWindows::default();
+        let diagnostics = if windows.is_empty() {
             let reason = reasons.into_iter().next();
             let low_parts = low_parts.filter(|_| !matches!(reason, Some(Unfit::NotUpright { .. })));
             let rests_left_out = rests_left_out.filter(|_| !reason.as_ref().is_some_and(is_of_arms));
-            // The parts of a clip that import rejects, or of which a transition is stated, are not reported.
-            let are_reported = clip.unfit.is_none() && clip.choices.transition.is_none();
-            let parts = low_parts.into_iter().chain(rests_left_out).filter(|_| are_reported);
-            let diagnostics =
-                reason.map(Diagnostic::NoExample).into_iter().chain(parts.map(Diagnostic::Note)).collect();
-            let left_out = LeftOutWindows::default();
-            return Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out };
-        }
-        let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
-        let left_out = LeftOutWindows { doubtful, ..LeftOutWindows::default() };
-        let notes = lost_steps.into_iter().chain(low_parts).chain(rests_left_out).chain(in_place_note(clip, &windows));
-        let diagnostics = notes.map(Diagnostic::Note).collect();
-        Self { grounded, frame_count, windows, rests, stances, movements, corners, diagnostics, left_out }
+            let parts = low_parts.into_iter().chain(rests_left_out).filter(|_| gives_parts);
+            reason.map(Diagnostic::NoExample).into_iter().chain(parts.map(Diagnostic::Note)).collect()
+        } else {
+            left_out.doubtful = doubtful;
+            let lost_steps = performer.gait.lost_steps.map(|reason| Note::OnlyRestUsed { reason });
+            let in_place = in_place_note(clip, &windows);
+            lost_steps
+                .into_iter()
+                .chain(low_parts)
+                .chain(rests_left_out)
+                .chain(in_place)
+                .map(Diagnostic::Note)
+                .collect()
+        };
+        Self { grounded, frame_count, windows, rests, brief_rests, stances, movements, corners, diagnostics, left_out }
     }
 
     /// The frames in which something is searched: all, or the middle round of a loop.
@@ -141,7 +149,8 @@ impl AnalyzedClip {
 
     /// Leaves the whole clip out, for a reason that only the set shows.
     pub(crate) fn leave_out(&mut self, reason: Unfit) {
-        (self.windows, self.rests, self.movements, self.corners) = Default::default();
+        (self.windows, self.movements, self.corners) = Default::default();
+        (self.rests, self.brief_rests) = Default::default();
         (self.diagnostics, self.left_out) = (vec![Diagnostic::NoExample(reason)], LeftOutWindows::default());
     }
 
@@ -150,6 +159,7 @@ impl AnalyzedClip {
         let stands = self.windows.iter().filter_map(SteadyCycle::standing);
         // Rests give idles only where a window stands.
         let rests = self.rests.iter().filter(|_| self.windows.iter().any(|window| window.standing().is_some()));
+        let rests = rests.chain(&self.brief_rests);
         // The cycle of a rest is at most as long as the rest.
         let with_margin = |frames: &Range<usize>| beside(frames.clone(), frames_beside(frames.len()));
         let moves = self.movements.iter().map(|movement| {
@@ -238,13 +248,9 @@ fn clip_movements(clip: &HumanClip, gait: &GaitAnalysis, grounded: &GroundedClip
     }
     let frames = searched_frames(grounded.frame_count(), grounded.loop_frames());
     let before = grounded.loop_frames().unwrap_or(0) as f64;
-    let (stated, steady_parts) = (clip.choices.transition, gait.steady_parts());
-    // A body that side-steps slowly stands for a moment in each stride.
-    let is_in_strides = |pause: &&Pause| {
-        let middle = 0.5 * (pause.frames.start + pause.frames.end - 1) as f64 - before;
-        stated.is_none() && steady_parts.iter().any(|[first, last]| (*first..=*last).contains(&middle))
-    };
-    let pauses: Vec<Pause> = gait.pauses.iter().filter(|pause| !is_in_strides(pause)).cloned().collect();
+    let stated = clip.choices.transition;
+    let is_between = |pause: &&Pause| stated.is_some() || !gait.is_in_strides(&pause.frames, grounded.loop_frames());
+    let pauses: Vec<Pause> = gait.pauses.iter().filter(is_between).cloned().collect();
     let mut found = movements(&pauses, &gait.strikes, grounded.frame_rate_hz, &frames);
     let left_out = clip.left_out_frames();
     let is_left_out = |movement: &Movement| {

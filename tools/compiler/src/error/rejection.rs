@@ -192,6 +192,8 @@ pub enum ManifestKey {
     Animation,
     /// `frames`: the first and the last frame to use.
     Frames,
+    /// `metres_per_unit`: metres of one source unit.
+    MetresPerUnit,
     /// `forward`: the facing in the first frame.
     Forward,
     /// `joints`: the source joint of this role.

@@ -15,12 +15,12 @@ pub(crate) const STANDING_JOINT_SPEED_MPS: f64 = 0.06;
 const ANKLES_TRAVEL_MAX_M: f64 = 0.1;
 /// Share of its frames for which each foot of a clip that stands as a whole is planted.
 const STANDING_SHARE_MIN: f64 = 0.95;
-/// Least duration of a clip that stands, s; shorter clips are poses.
+/// Least duration of a clip that stands, and of a brief rest in a capture, s; what is shorter is a pose.
 pub(crate) const STANDING_MIN_S: f64 = 0.5;
 /// Span over which speeds within a capture are taken, s: a pause between two steps is not standing.
 const REST_SPAN_S: f64 = 0.5;
 /// Least duration of a rest in a capture, s: longer than a stride of m_sp, so that the steps before and after fade.
-const REST_MIN_S: f64 = 1.5;
+pub(crate) const REST_MIN_S: f64 = 1.5;
 
 /// Whether the whole clip stands. `planted` holds the flags of both feet.
 pub(crate) fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
@@ -32,11 +32,16 @@ pub(crate) fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
         && track.ankles_travel_m(0..track.frame_count()) < ANKLES_TRAVEL_MAX_M
 }
 
-/// The rests within some frames of a clip that also moves, in order of time.
-pub(crate) fn rests(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: Range<usize>) -> Vec<Range<usize>> {
+/// The rests of more than `least_s` seconds within some frames of a clip that also moves, in order of time.
+pub(crate) fn rests(
+    planted: &[Vec<bool>; 2],
+    track: &BodyTrack,
+    frames: Range<usize>,
+    least_s: f64,
+) -> Vec<Range<usize>> {
     let still = still_frames(track);
     let rests: Vec<bool> = frames.clone().map(|frame| planted[0][frame] && planted[1][frame] && still[frame]).collect();
-    let length_min = REST_MIN_S * track.frame_rate_hz;
+    let length_min = least_s * track.frame_rate_hz;
     frame_runs(&rests, true)
         .into_iter()
         .filter(|rest| rest.len() as f64 > length_min)

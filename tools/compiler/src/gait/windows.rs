@@ -63,6 +63,8 @@ pub struct GaitAnalysis {
     pub windows: Result<Vec<GaitWindow>, Unfit>,
     /// Frames in which the body stands, in order of time; of a loop within its middle round.
     pub rests: Vec<Range<usize>>,
+    /// Frames in which a body without such rests stands more briefly between its strides, as `rests`.
+    pub brief_rests: Vec<Range<usize>>,
     /// Where the body stands, if only for a moment, in order of time; of a loop within its middle round.
     pub(crate) pauses: Vec<Pause>,
     /// Touches of the ground, in order of time; of a loop within its middle round.
@@ -93,15 +95,23 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Ra
     let planted = READINGS.map(|reading| {
         sides.each_mut().map(|side| left_out.without_frames(std::mem::take(&mut side.contacts[reading].planted)))
     });
-    let rests = rests(&planted, &track, clip.loop_frames());
+    let rests = rests_of(&planted, &track, clip.loop_frames(), standing::REST_MIN_S);
     let windows = gait_windows(&planted, &steps, &rests, &track, clip.loop_frames());
+    let brief_rests = match &rests {
+        Some(_) => Vec::new(),
+        None => rests_of(&planted, &track, clip.loop_frames(), standing::STANDING_MIN_S)
+            .map_or_else(Vec::new, |(_, rests)| rests),
+    };
     let rests = rests.map_or_else(Vec::new, |(_, rests)| rests);
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());
     let lost_steps = lost_steps(&windows, &steps[0], &frames);
     let (pauses_of, strikes_of) = (pauses, strikes);
     let (pauses, strikes) = (Vec::new(), Vec::new());
-    let mut found = GaitAnalysis { stances, windows, rests, pauses, strikes, path: BodyPath::default(), lost_steps };
+    let path = BodyPath::default();
+    let mut found =
+        GaitAnalysis { stances, windows, rests, brief_rests: Vec::new(), pauses, strikes, path, lost_steps };
+    found.brief_rests = brief_rests.into_iter().filter(|rest| !found.is_in_strides(rest, clip.loop_frames())).collect();
     found.pauses = pauses_of(&track, found.clearest_stances(), &frames);
     found.strikes = strikes_of(found.clearest_stances(), &track, &frames);
     found.path = BodyPath { hips_m: track.hips_m, facing_rad: track.facing_rad };
@@ -184,6 +194,13 @@ impl GaitAnalysis {
         let windows = self.windows.iter().flatten();
         windows.filter(|window| matches!(window.gait, WindowGait::Steps(_))).map(|window| window.frames).collect()
     }
+
+    /// Whether some frames of the analysed clip lie in steady strides: a body that side-steps slowly stands for a moment
+    /// in each.
+    pub(crate) fn is_in_strides(&self, frames: &Range<usize>, loop_frames: Option<usize>) -> bool {
+        let middle = 0.5 * (frames.start + frames.end - 1) as f64 - loop_frames.unwrap_or(0) as f64;
+        self.steady_parts().iter().any(|[first, last]| (*first..=*last).contains(&middle))
+    }
 }
 
 /// The windows of a clip, in three cases:
@@ -216,17 +233,19 @@ fn gait_windows(
     if windows.is_empty() { Err(why_unsteady(&steps[0], &frames)) } else { Ok(windows) }
 }
 
-/// The rests of a clip by the strictest reading that shows one, and that reading. A clip that stands is one rest.
-fn rests(
+/// The rests of a clip that last longer than `least_s` seconds, by the strictest reading that shows one, and that
+/// reading. A clip that stands is one rest.
+fn rests_of(
     planted: &[[Vec<bool>; 2]],
     track: &BodyTrack,
     loop_frames: Option<usize>,
+    least_s: f64,
 ) -> Option<(usize, Vec<Range<usize>>)> {
     let frames = searched_frames(track.frame_count(), loop_frames);
     if let Some(reading) = planted.iter().position(|planted| standing::stands(planted, track)) {
         return Some((reading, vec![frames]));
     }
-    let of_readings = planted.iter().map(|planted| standing::rests(planted, track, frames.clone()));
+    let of_readings = planted.iter().map(|planted| standing::rests(planted, track, frames.clone(), least_s));
     of_readings.enumerate().find(|(_, rests)| !rests.is_empty())
 }
 

@@ -79,7 +79,8 @@ pub(crate) fn clip_set(manifest: &Manifest, importer: &Importer, observer: &Obse
 /// Sorts clips into the order of a database's sources and makes their names unique.
 ///
 /// Neither folders nor the order of arguments change the result: files of equal names are sorted by their style and
-/// their content. Clips of one name in several styles have their style before it.
+/// their content. Clips of one name in several styles have their style before it. A name that a manifest states goes to
+/// the clip for which it is stated.
 pub(crate) fn sort(clips: &mut [HumanClip]) {
     fn names(clip: &HumanClip) -> [&str; 4] {
         [&clip.source.file, &clip.source.clip, &clip.name, &clip.style]
@@ -96,5 +97,6 @@ pub(crate) fn sort(clips: &mut [HumanClip]) {
             clip.name = format!("{} {}", clip.style, clip.name);
         }
     }
-    unique_names::make_unique(clips.iter_mut().map(|clip| &mut clip.name));
+    let (stated, others): (Vec<_>, Vec<_>) = clips.iter_mut().partition(|clip| clip.choices.is_name_stated);
+    unique_names::make_unique(stated.into_iter().chain(others).map(|clip| &mut clip.name));
 }

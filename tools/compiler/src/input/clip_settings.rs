@@ -101,6 +101,18 @@ impl ClipSettings {
         Ok(())
     }
 
+    /// The reason that a stated unit makes no human body, where a body is impossible by its size alone.
+    pub(crate) fn contradicted_unit(&self, reason: &RejectionReason) -> Option<RejectionReason> {
+        let (Some(metres_per_unit), RejectionReason::LegLength { leg_m }) = (self.metres_per_unit, reason) else {
+            return None;
+        };
+        Some(RejectionReason::ManifestContradicted {
+            key: ManifestKey::MetresPerUnit,
+            problem: format!("with {metres_per_unit} m a unit, thigh and shank are {leg_m:.3} m long"),
+            remedy: "correct `metres_per_unit`, or leave it out: units are found by the size of the body",
+        })
+    }
+
     /// The source joints of the roles that `joints` names.
     ///
     /// # Errors

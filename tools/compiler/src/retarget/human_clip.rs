@@ -81,6 +81,8 @@ pub struct Choices {
     pub semi_procedural_tenth: Option<u32>,
     /// Whether all examples have this clip's body.
     pub is_target_skeleton: bool,
+    /// Whether the manifest states the name.
+    pub is_name_stated: bool,
     /// Whether the manifest selects the frames.
     pub is_cut: bool,
     /// Whether parts in which the body is not upright give examples, too.

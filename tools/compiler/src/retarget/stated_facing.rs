@@ -1,6 +1,7 @@
 //! The facing that a manifest states: left and right are exchanged where role search found them the other way round.
 
 use motiondb::body::Joint;
+use motiondb::diagnostic::Warning;
 
 use crate::error::{ManifestKey, RejectionReason};
 use crate::read::axis::Axis;
@@ -11,11 +12,15 @@ use crate::rig::roles::Roles;
 /// Greatest deviation of the facing from the stated axis, as a cosine (60°).
 const FACING_COSINE: f64 = 0.5;
 
-/// Exchanges the sides of `roles` where the hips of the first frame face away from `forward`, an axis of the source.
+/// Greatest cosine between a foot and the stated axis of a body that walks backward (120°).
+const BACKWARD_COSINE: f64 = -0.5;
+
+/// Exchanges the sides of `roles` where the hips of the first frame face away from `forward`, an axis of the source. The
+/// warning that both feet point the other way.
 ///
 /// # Errors
 /// If that axis is vertical, or more than 60° off the body's facing both ways.
-pub(crate) fn apply(clip: &SourceClip, roles: &mut Roles, forward: Axis) -> Result<(), RejectionReason> {
+pub(crate) fn apply(clip: &SourceClip, roles: &mut Roles, forward: Axis) -> Result<Option<Warning>, RejectionReason> {
     let contradicted = |problem: String, remedy: &'static str| {
         Err(RejectionReason::ManifestContradicted { key: ManifestKey::Forward, problem, remedy })
     };
@@ -35,5 +40,11 @@ pub(crate) fn apply(clip: &SourceClip, roles: &mut Roles, forward: Axis) -> Resu
     if along < 0.0 {
         roles.exchange_sides();
     }
-    Ok(())
+    let points_backward = |side: usize| {
+        let [ankle, toe] = [Joint::FEET[side], Joint::TOES[side]].map(|joint| roles.joints[joint.index()]);
+        let foot = toe.zip(ankle).map(|(toe, ankle)| clip.position(0, toe) - clip.position(0, ankle));
+        foot.is_some_and(|foot| foot.normalize_or_zero().dot(forward.direction()) < BACKWARD_COSINE)
+    };
+    let is_backward = [0, 1].into_iter().all(points_backward);
+    Ok(is_backward.then(|| Warning::ForwardAgainstFeet { forward: forward.name() }))
 }

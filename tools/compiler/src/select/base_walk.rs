@@ -18,7 +18,7 @@ pub(crate) struct BaseWalkCandidate {
     pub(crate) rates: Rates,
     /// The body is upright.
     pub(crate) is_upright: bool,
-    /// The feet deserve a warning.
+    /// Feet or frame time deserve a warning.
     pub(crate) is_doubtful: bool,
     /// The body runs.
     pub(crate) is_run: bool,
@@ -29,7 +29,7 @@ pub(crate) struct BaseWalkCandidate {
 /// Index of m_sp among cycles that step. Each criterion counts only where a cycle meets it:
 /// 1. upright;
 /// 2. straight;
-/// 3. clean feet;
+/// 3. clean feet, at a frame time without doubt;
 /// 4. no run;
 /// 5. least difference from 1.2 m/s, plus the posture penalty. Where none is straight, the rates of the root are to be
 ///    nearest to those of a straight walk: a body leans in a circle, and turns its head.

@@ -3,6 +3,7 @@
 //! The first window of a clip has the clip's name. A further one adds the second of the file at which it begins,
 //! `capture@07.3s`, with as many digits as the clip's last second has, so that names sort by time.
 
+use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb::motion::SourceRecord;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
@@ -150,12 +151,13 @@ fn base_walk_candidates(
     body: &HumanBody,
 ) -> (Vec<WindowId>, Vec<BaseWalkCandidate>) {
     let windows = |(clip, found): (usize, &AnalyzedClip)| {
+        let is_time_doubtful = clips[clip].source.diagnostics.iter().chain(&found.diagnostics).any(doubts_time);
         let candidate = |(window, steady): (usize, &SteadyCycle)| {
             let cycle = steady.stepping()?;
             let candidate = BaseWalkCandidate {
                 rates: cycle.rates,
                 is_upright: clips[clip].is_upright_in(steady.window_s),
-                is_doubtful: steady.is_doubtful,
+                is_doubtful: steady.is_doubtful || is_time_doubtful,
                 is_run: cycle.is_run(),
                 posture_penalty_mps: posture_penalty_mps(cycle, body),
             };
@@ -164,6 +166,19 @@ fn base_walk_candidates(
         found.windows.iter().enumerate().filter_map(candidate).collect::<Vec<_>>()
     };
     analyzed.iter().enumerate().flat_map(windows).unzip()
+}
+
+/// Whether the times of a clip, and with them its speeds, are doubtful.
+fn doubts_time(found: &Diagnostic) -> bool {
+    matches!(
+        found,
+        Diagnostic::Warning(
+            Warning::FrameTimeDoubtful { .. }
+                | Warning::QuickMotion { .. }
+                | Warning::RareFrameRate { .. }
+                | Warning::FramesDropped { .. }
+        )
+    )
 }
 
 #[cfg(test)]

@@ -44,6 +44,7 @@ fn standing_parts(found: &AnalyzedClip, note: Diagnostic) -> AnalyzedClip {
         frame_count: found.frame_count,
         windows: standing.collect(),
         rests: found.rests.clone(),
+        brief_rests: Vec::new(),
         stances: [Vec::new(), Vec::new()],
         movements: Vec::new(),
         corners: Vec::new(),

@@ -54,7 +54,7 @@ pub(crate) fn by_style(
         let own = shown.get(&clip.style).copied().unwrap_or_default();
         let is_added = clip.style != first && (!own.gives_example || clip.style.is_empty());
         if is_added && !own.gives_example {
-            (found.rests, found.movements) = (Vec::new(), Vec::new());
+            (found.rests, found.brief_rests, found.movements) = Default::default();
         }
         let style = if is_added { first.clone() } else { clip.style.clone() };
         let position = parts.iter().position(|part| part.style == style).unwrap_or_else(|| {

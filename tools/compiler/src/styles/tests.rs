@@ -11,7 +11,7 @@ use motiondb::validate::first_broken;
 
 use crate::retarget::human_clip::HumanClip;
 use crate::survey::survey;
-use crate::synthetic::{SyntheticWalk, database_of, idle, recorded, walk};
+use crate::synthetic::{SyntheticWalk, database_of, idle, performance, recorded, walk};
 use crate::{Options, compile};
 
 fn straight(name: &str, speed_mps: f64) -> HumanClip {
@@ -174,4 +174,24 @@ fn styles_survive_the_file_and_their_faults_are_named() {
     assert_eq!(fault(&db), Some("styles_share_the_skeleton"));
     db.further_styles[0].style = "../angry".into();
     assert_eq!(fault(&db), Some("styles_are_unique"));
+}
+
+#[test]
+fn a_style_without_idle_stands_as_in_a_brief_rest() {
+    let capture = || {
+        let part =
+            |speed_mps| walk("part", SyntheticWalk { duration_s: 4.0, ..SyntheticWalk::at(speed_mps, 0.0, 0.0) });
+        performance("capture", &[part(1.2), idle("part", 1.2), part(0.8)])
+    };
+    let used_s = |clips: Vec<HumanClip>| {
+        let db = database_of(clips, 0);
+        assert_eq!(first_broken(&db), None);
+        diagnostics(&db).into_iter().find_map(|found| match found {
+            Diagnostic::Note(Note::BriefRestUsed { rest_s }) => Some(*rest_s),
+            _ => None,
+        })
+    };
+    let Some([first_s, last_s]) = used_s(vec![capture()]) else { panic!("no rest") };
+    assert!(first_s > 3.9 && last_s < 5.3 && last_s - first_s > 0.5, "{first_s} to {last_s} s");
+    assert_eq!(used_s(vec![capture(), idle("idle", 3.0)]), None);
 }

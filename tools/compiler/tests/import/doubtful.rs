@@ -89,6 +89,38 @@ fn radians_are_reported() {
     assert!(matches!(found, Warning::RadiansLikely { turned_rad } if turned_rad.to_degrees() < 1.5), "{found:?}");
 }
 
+/// A bundled clip of which each frame occurs so many times.
+fn with_frames(clip: &str, times: impl Fn(usize) -> usize) -> String {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips"));
+    let text = std::fs::read_to_string(folder.join(clip).with_extension("bvh")).unwrap();
+    let start = text.find("Frame Time").and_then(|at| Some(at + text[at..].find('\n')? + 1)).unwrap();
+    let rows: Vec<&str> =
+        text[start..].lines().enumerate().flat_map(|(frame, row)| std::iter::repeat_n(row, times(frame))).collect();
+    let count_at = text.find("Frames:").unwrap();
+    let count_end = count_at + text[count_at..].find('\n').unwrap();
+    let head = format!("{}Frames: {}{}", &text[..count_at], rows.len(), &text[count_end..start]);
+    head + &rows.join("\n") + "\n"
+}
+
+#[test]
+fn dropped_frames_are_reported() {
+    let share = |clip: &str, times: &dyn Fn(usize) -> usize| {
+        diagnostics(&with_frames(clip, times)).into_iter().find_map(|found| match found {
+            Diagnostic::Warning(Warning::FramesDropped { share }) => Some(share),
+            _ => None,
+        })
+    };
+    for clip in ["walk_110", "turn_090_left", "run_350"] {
+        let dropped = share(clip, &|frame| usize::from(frame % 7 != 3)).unwrap_or_default();
+        assert!((dropped - 1.0 / 7.0).abs() < 0.02, "{clip}: {dropped}");
+        // Repeated frames, as of a film at 24 Hz played at 30, keep the time.
+        for times in [&|_| 1, &|frame| 1 + usize::from(frame % 4 == 0), &|_| 2] as [&dyn Fn(usize) -> usize; 3] {
+            assert_eq!(share(clip, times), None, "{clip}");
+        }
+    }
+    assert_eq!(share("idle", &|frame| usize::from(frame % 7 != 3)), None);
+}
+
 /// A bundled clip in place; its angles are in radians where `is_in_radians`.
 fn in_place(clip: &str, is_in_radians: bool) -> String {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips"));

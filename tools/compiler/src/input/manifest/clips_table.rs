@@ -206,7 +206,10 @@ impl ClipsTable {
             spans.insert(ManifestKey::Joint(role), name.span());
         }
         settings.name = value(&self.name).or(settings.name.take());
-        settings.metres_per_unit = value(&self.metres_per_unit).or(settings.metres_per_unit);
+        if let Some(metres_per_unit) = &self.metres_per_unit {
+            settings.metres_per_unit = Some(*metres_per_unit.get_ref());
+            spans.insert(ManifestKey::MetresPerUnit, metres_per_unit.span());
+        }
         settings.frame_rate_hz = value(&self.frame_rate_hz).or(settings.frame_rate_hz);
         settings.up = self.up.or(settings.up);
         if let Some(posture) = self.posture {
