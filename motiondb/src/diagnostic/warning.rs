@@ -191,6 +191,11 @@ pub enum Warning {
         /// Share of the frames that are missing.
         share: f32,
     },
+    /// Frames repeat the one before: if the time between them is that of the file, the motion is too slow.
+    FramesRepeated {
+        /// Share of the frames that repeat another one.
+        share: f32,
+    },
     /// Both feet point away from the facing that a manifest states.
     ForwardAgainstFeet {
         /// The stated axis.
@@ -238,6 +243,7 @@ impl Warning {
             Self::RareFrameRate { .. } => "rare_frame_rate",
             Self::TrunkTwisted { .. } => "trunk_twisted",
             Self::FramesDropped { .. } => "frames_dropped",
+            Self::FramesRepeated { .. } => "frames_repeated",
             Self::ForwardAgainstFeet { .. } => "forward_against_feet",
             Self::CarriageUnlike { .. } => "carriage_unlike",
         }
@@ -300,7 +306,8 @@ impl fmt::Display for Warning {
                 of_example(*from_s)
             ),
             Self::FrameCountWrong { stated, rows } => {
-                write!(out, "`Frames:` states {stated}, but the file has {rows} rows, which are used; correct the header")
+                let again = if f64::from(*rows) < *stated { "export the whole file again, or " } else { "" };
+                write!(out, "`Frames:` states {stated}, but the file has {rows} rows, which are used; {again}correct the header")
             }
             Self::TPoseKept { frames, end } => t_pose(out, *frames, *end),
             Self::FrameTimesDiffer { others, more, mirrored, windows_left_out } => {
@@ -329,6 +336,12 @@ impl fmt::Display for Warning {
                 out,
                 "about {:.0} % of the frames are missing, so the motion is too fast by as much; record or export the clip \
                  again without gaps",
+                100.0 * share
+            ),
+            Self::FramesRepeated { share } => write!(
+                out,
+                "{:.0} % of the frames repeat the one before; if the motion is too slow by as much, state the right \
+                 `frame_rate_hz` in a manifest.toml, else export the clip without repeated frames",
                 100.0 * share
             ),
             Self::ForwardAgainstFeet { forward } => write!(
@@ -428,8 +441,8 @@ fn t_pose(out: &mut fmt::Formatter<'_>, frames: u32, end: ClipEnd) -> fmt::Resul
 fn frame_rate_doubtful(out: &mut fmt::Formatter<'_>, steps: &str, frame_rate_hz: f32) -> fmt::Result {
     write!(
         out,
-        "{steps}; if the clip was recorded at another rate than {frame_rate_hz:.0} Hz, state `frame_rate_hz` in a \
-         manifest.toml"
+        "{steps}; if the clip was recorded at another rate than {frame_rate_hz:.0} Hz, state the right \
+         `frame_rate_hz` in a manifest.toml"
     )
 }
 

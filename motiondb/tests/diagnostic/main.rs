@@ -95,6 +95,7 @@ const NUMBERED: [&[&str]; 3] = [
         "rare_frame_rate",
         "trunk_twisted",
         "frames_dropped",
+        "frames_repeated",
         "forward_against_feet",
         "carriage_unlike",
     ],

@@ -24,7 +24,7 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
         (
             Warning::FrameTimeDoubtful { step_cm: 68.0, steps_per_min: 52.0, frame_rate_hz: 60.0 },
             "steps of 68 cm, only 52 a minute, look like slow motion; if the clip was recorded at another rate than 60 \
-             Hz, state `frame_rate_hz` in a manifest.toml",
+             Hz, state the right `frame_rate_hz` in a manifest.toml",
         ),
         (
             Warning::StyleWithoutExample { style: "elderly".into() },
@@ -89,7 +89,7 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::FrameCountWrong { stated: 99.0, rows: 40 },
-            "`Frames:` states 99, but the file has 40 rows, which are used; correct the header",
+            "`Frames:` states 99, but the file has 40 rows, which are used; export the whole file again, or correct the header",
         ),
         (
             Warning::TPoseKept { frames: 60, end: ClipEnd::First },
@@ -129,7 +129,7 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
         (
             Warning::QuickMotion { step_cm: 41.2, steps_per_min: 219.6, frame_rate_hz: 120.0 },
             "steps of only 41 cm, 220 a minute, look like motion played too fast; if the clip was recorded at another rate \
-             than 120 Hz, state `frame_rate_hz` in a manifest.toml",
+             than 120 Hz, state the right `frame_rate_hz` in a manifest.toml",
         ),
         (
             Warning::RadiansLikely { turned_rad: 0.02 },
@@ -166,6 +166,11 @@ pub(crate) fn warnings() -> Vec<(Warning, &'static str)> {
             Warning::FramesDropped { share: 0.148 },
             "about 15 % of the frames are missing, so the motion is too fast by as much; record or export the clip again \
              without gaps",
+        ),
+        (
+            Warning::FramesRepeated { share: 0.5 },
+            "50 % of the frames repeat the one before; if the motion is too slow by as much, state the right `frame_rate_hz` \
+             in a manifest.toml, else export the clip without repeated frames",
         ),
         (
             Warning::ForwardAgainstFeet { forward: "-Z".into() },

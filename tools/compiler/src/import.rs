@@ -227,7 +227,10 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         None
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let jumps = pose_jumps::pose_jumps(&clip, &roles);
+    let frames = dropped_frames::warning(&clip, &roles);
+    // Where frames are repeated, every other one jumps.
+    let repeats = matches!(frames, Some(Warning::FramesRepeated { .. }));
+    let jumps = if repeats { Vec::new() } else { pose_jumps::pose_jumps(&clip, &roles) };
     let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
     let is_frame_time_wrong = matches!(unfit, Some(Unfit::InhumanGait { .. }));
     if is_frame_time_wrong {
@@ -235,8 +238,8 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     }
     // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
     let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
-    let dropped = dropped_frames::warning(&clip, &roles).filter(|_| !is_frame_time_wrong);
-    clip.diagnostics.extend(jump.into_iter().chain(dropped).map(Diagnostic::Warning));
+    let frames = frames.filter(|_| !is_frame_time_wrong);
+    clip.diagnostics.extend(jump.into_iter().chain(frames).map(Diagnostic::Warning));
     let low_parts = match contradicted_up {
         None => posture::low_parts(&clip, &roles, &parameters),
         Some(_) => Vec::new(),

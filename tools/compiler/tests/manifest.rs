@@ -235,11 +235,11 @@ fn mistakes_are_shown_at_their_position() {
     check_rejected("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
     check_rejected("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
     let window = "semi_procedural = 'walk_110@02.0s'\n";
-    check_rejected("window", window, "'walk_110@02.0s'", &["no stepping cycle", "walk_110"]);
+    check_rejected("window", window, "'walk_110@02.0s'", &["no walk ahead", "walk_110"]);
     check_rejected("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
     check("kind", "transition = 'jump'\n", "'jump'", &["unknown value `jump`", "`start`", "`pivot`"]);
     check("no_start", "transition = 'start'\n", "'start'", &["walk_110.bvh", "no start was found"]);
-    check_rejected("standing", "semi_procedural = 'idle'\n", "'idle'", &["no stepping cycle", "m_sp"]);
+    check_rejected("standing", "semi_procedural = 'idle'\n", "'idle'", &["no walk straight ahead", "m_sp"]);
 }
 
 #[test]

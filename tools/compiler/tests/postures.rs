@@ -299,6 +299,21 @@ fn a_manifest_can_take_any_posture() {
     assert_eq!(db.correspondence.map(|found| found.semi_procedural as usize), walk, "{:#?}", db.examples);
 }
 
+#[test]
+fn with_any_posture_a_crowd_still_stands_upright() {
+    let stand = |seconds: f64| {
+        let mut idle = Performance::read("idle");
+        idle.poses.truncate((seconds * idle.frame_rate_hz) as usize);
+        idle
+    };
+    let mut clip = imported(&capture(&[&walk(), &stand(2.8), &crouch(&stand(4.0)), &walk()]));
+    clip.choices.takes_any_posture = true;
+    let db = compile(vec![clip], &Options::default(), &|_| ()).unwrap();
+    let standing = db.examples.iter().find(|example| example.key_times_s.is_none()).unwrap();
+    let crouched_s = 4.8 + 2.8;
+    assert!(standing.window_s[1] < crouched_s + 1.0, "{standing:?}");
+}
+
 /// The bundled idle with its arms turned up by so many degrees off hanging, about the body's long axis of travel.
 fn idle_with_arms(spread_deg: f64) -> Performance {
     changed(&Performance::read("idle"), |pose, facing, _| {

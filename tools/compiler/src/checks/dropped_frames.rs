@@ -1,5 +1,6 @@
-//! Frames that a capture or its export dropped: in one frame the body moves as far as else in two or more. The others
-//! are played as if none were missing, so that the motion is too fast. Clips are in metres, z up.
+//! Frames that a capture or its export dropped, or repeated. After a dropped one the body moves as far in one frame as else
+//! in two or more; the others are played as if none were missing, so that the motion is too fast. Where each frame is
+//! repeated it may be too slow. Clips are in metres, z up.
 
 use motiondb::diagnostic::Warning;
 use motiondb::statistics::mean;
@@ -21,14 +22,30 @@ const MOVING_MPS: f64 = 0.2;
 const SHARE_MIN: f64 = 0.03;
 /// Least number of dropped frames that is reported.
 const DROPPED_MIN: usize = 4;
+/// Share of repeated frames from which on they are reported. A film at 24 frames a second that is exported at 30 has a
+/// fifth.
+const REPEATED_SHARE_MIN: f64 = 0.4;
+/// Greatest mean displacement of the joints in a repeated frame, m: rounding.
+const REPEATED_M: f64 = 1e-6;
 
-/// The warning that frames are missing. Frames that are repeated keep the time, so a clip that has as many is none.
+/// The warning that frames are missing, or repeated.
 pub(crate) fn warning(clip: &SourceClip, roles: &Roles) -> Option<Warning> {
     let moved_m = moved_m(clip, roles);
     let mean_m = mean(moved_m.iter().copied())?;
     if mean_m * clip.frame_rate_hz < MOVING_MPS {
         return None;
     }
+    // A pose that is held for longer is counted once.
+    let repeats = moved_m.windows(2).filter(|pair| pair[0] >= REPEATED_M && pair[1] < REPEATED_M).count();
+    let repeated = repeats as f64 / moved_m.len() as f64;
+    if repeated > REPEATED_SHARE_MIN {
+        return Some(Warning::FramesRepeated { share: repeated as f32 });
+    }
+    dropped(&moved_m, mean_m)
+}
+
+/// The warning that frames are missing. Frames that are repeated keep the time, so a clip that has as many is none.
+fn dropped(moved_m: &[f64], mean_m: f64) -> Option<Warning> {
     let over_beside = |moved_m: &[f64]| {
         let most_m = moved_m[0].max(moved_m[2]);
         (most_m > MOVING_SHARE * mean_m).then(|| moved_m[1] / most_m)

@@ -5,7 +5,6 @@
 //! 2. Put the clip, and the windows of the gait, on the target body.
 //! 3. Close each window into a steady cycle, or find why it is unfit ([`crate::cycle::steady_cycle`]).
 
-use std::cmp::Reverse;
 use std::ops::Range;
 
 use glam::DQuat;
@@ -383,15 +382,17 @@ struct ClipOnBody<'a> {
 }
 
 impl ClipOnBody<'_> {
-    /// The cycle of the longest rest in which the body stands at ease; or the reason why the longest of all is unfit.
+    /// The cycle of the rest with the fewest flaws in which the body stands at ease; or the reason why the longest of all is
+    /// unfit.
     fn standing_cycle(&self, longest: &Range<usize>) -> Result<SteadyCycle, Unfit> {
         let cycle = |rest: &Range<usize>| {
             let window_s = self.times.of_rest_s(rest, self.grounded);
             SteadyCycle::of_rest(self.grounded, rest, self.body, window_s)
         };
-        let mut others: Vec<&Range<usize>> = self.rests.iter().filter(|rest| *rest != longest).collect();
-        others.sort_by_key(|rest| Reverse(rest.len()));
-        cycle(longest).or_else(|unfit| others.into_iter().find_map(|rest| cycle(rest).ok()).ok_or(unfit))
+        let others = self.rests.iter().filter(|rest| *rest != longest).map(cycle);
+        let fit = [cycle(longest)].into_iter().chain(others).flatten();
+        let best = fit.min_by(|a, b| a.flaws.total_cmp(&b.flaws));
+        best.map_or_else(|| cycle(longest), Ok)
     }
 
     /// The steady cycle of a window, or why it is unfit; `stances` are those of both feet, `[left, right]`.

@@ -20,6 +20,10 @@ const REST_S: f64 = 1.0;
 const UPRIGHT_LEAN_DEG: f64 = 15.0;
 /// Lean beyond [`UPRIGHT_LEAN_DEG`] that counts as one flaw, degrees.
 const BENT_LEAN_DEG: f64 = 30.0;
+/// Least height of the hips over the ankles of straight legs, leg lengths.
+const STRAIGHT_LEGS: f64 = 0.9;
+/// Height lost as flawed as a lone stride, leg lengths: a deep crouch loses .25.
+const BENT_LEGS: f64 = 0.1;
 /// Parts of the names of clips that show a body at ease.
 const STANDING_NAMES: [&str; 6] = ["idle", "stand", "breath", "rest", "wait", "neutral"];
 /// Flaws of a rest in a clip of another name: as much as arms that are half raised.
@@ -37,9 +41,10 @@ pub(crate) fn flaws_of_strides(strides: &[Stride], rates: &Rates, slide: &FootSl
         + 1.0 / strides.len() as f64
 }
 
-/// The flaws of a rest: it is short, its arms are raised, its trunk is bent, its joints move.
+/// The flaws of a rest: it is short, its arms are raised, its trunk or its legs are bent, its joints move.
 pub(crate) fn flaws_of_rest(rest: &Rest) -> f64 {
     let bent = (rest.lean_deg - UPRIGHT_LEAN_DEG).max(0.0) / BENT_LEAN_DEG;
+    let bent = bent + (STRAIGHT_LEGS - rest.hips_legs).max(0.0) / BENT_LEGS;
     REST_S / rest.duration_s + rest.arms_raised + bent + rest.joint_speed_mps / STANDING_JOINT_SPEED_MPS
 }
 

@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
@@ -37,6 +38,8 @@ pub(crate) struct Rest {
     pub(crate) higher_arm_deg: f64,
     /// Lean of the trunk off the vertical, degrees.
     pub(crate) lean_deg: f64,
+    /// Height of the hips over the ankles, leg lengths.
+    pub(crate) hips_legs: f64,
     /// Speed of the joints, m/s.
     pub(crate) joint_speed_mps: f64,
 }
@@ -60,6 +63,7 @@ impl Rest {
                 arms_deg(|joint| joints.position_m(joint)).into_iter().fold(0.0, f64::max)
             }),
             lean_deg: mean_of(&|joints| trunk_lean_deg(|joint| joints.position_m(joint))),
+            hips_legs: mean_of(&hips_over_ankles_m) / body.leg_length_m(),
             joint_speed_mps: mean(chords_m).unwrap_or_default() * clip.frame_rate_hz / chord.max(1) as f64,
         }
     }
@@ -74,6 +78,12 @@ impl Rest {
             _ => None,
         }
     }
+}
+
+/// Mean height of the hips over the ankles, m.
+fn hips_over_ankles_m(joints: &HumanJoints) -> f64 {
+    let height_m = |side: usize| joints.position_m(Joint::THIGHS[side]).z - joints.position_m(Joint::FEET[side]).z;
+    0.5 * (height_m(0) + height_m(1))
 }
 
 /// Height of the wrists over the shoulders, arm lengths, plus 1; mean of both arms.

@@ -124,7 +124,10 @@ pub enum RejectionReason {
     #[error("positions or rotations are not finite: the skeleton is degenerate; export the clip again")]
     Degenerate,
     /// No walking body has legs of this length.
-    #[error("no human proportions: thigh and shank are {leg_m:.3} m long; correct the skeleton's offsets and its unit")]
+    #[error(
+        "no human proportions: thigh and shank are {leg_m:.3} m long; correct the skeleton's offsets, or state the \
+         unit as `metres_per_unit` in a manifest.toml"
+    )]
     LegLength {
         /// Thigh plus shank, m.
         leg_m: f64,

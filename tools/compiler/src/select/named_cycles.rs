@@ -124,7 +124,9 @@ fn base_walk_window(
         return Ok(base_walk(&candidates).map(|index| ids[index]));
     };
     let (chosen, found) = (&clips[clip], &analyzed[clip]);
-    let steps = |window: &SteadyCycle| window.stepping().is_some();
+    // A base walk is deformed by its speed ahead.
+    let goes_ahead = |cycle: &GaitCycle| cycle.rates.speed_mps > cycle.rates.strafe_mps.abs();
+    let steps = |window: &SteadyCycle| window.stepping().is_some_and(goes_ahead);
     let named = (0..found.windows.len()).find(|&index| is_chosen(chosen, index, found.windows[index].window_s));
     named.filter(|&window| steps(&found.windows[window])).map(|window| Some(WindowId { clip, window })).ok_or_else(
         || {
@@ -177,6 +179,7 @@ fn doubts_time(found: &Diagnostic) -> bool {
                 | Warning::QuickMotion { .. }
                 | Warning::RareFrameRate { .. }
                 | Warning::FramesDropped { .. }
+                | Warning::FramesRepeated { .. }
         )
     )
 }

@@ -1,5 +1,5 @@
 //! Walks in which the body holds a part otherwise than in the other walks of its style: an arm, the head or the trunk. It
-//! would be blended into all of them.
+//! would be blended into all of them. Bodies that stand are compared with the walks, too.
 //!
 //! Frame of the facing: x forward, y left, z up.
 
@@ -13,6 +13,8 @@ use rayon::prelude::*;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::gait_cycle::GaitCycle;
+use crate::cycle::standing_cycle::standing_cycle;
+use crate::cycle::steady_cycle::SteadyMotion;
 use crate::ground::root_arc::Rates;
 use crate::retarget::human_clip::HumanBody;
 
@@ -24,40 +26,93 @@ const WALKS_MPS: Range<f64> = 0.3..2.0;
 const ASIDE_MAX_MPS: f64 = 0.3;
 /// Greatest turn rate, rad/s: the head turns into sharp curves.
 const TURN_MAX_RAD_S: f64 = 0.8;
-/// Parts that are compared, and the least angle from the usual that is reported, degrees.
-const PARTS: [(HeldPart, f64); 4] =
-    [(HeldPart::LeftArm, 40.0), (HeldPart::RightArm, 40.0), (HeldPart::Head, 35.0), (HeldPart::Trunk, 20.0)];
+/// Directions that are compared, with their part and the least angle from the usual that is reported, degrees: from each
+/// shoulder to its elbow and from there to the wrist, where the head faces, and from the pelvis to the neck.
+const PARTS: [(HeldPart, f64); 6] = [
+    (HeldPart::LeftArm, 40.0),
+    (HeldPart::LeftArm, 55.0),
+    (HeldPart::RightArm, 40.0),
+    (HeldPart::RightArm, 55.0),
+    (HeldPart::Head, 35.0),
+    (HeldPart::Trunk, 20.0),
+];
+/// Period in which a body that stands is measured, s.
+const STANDING_S: f64 = 1.0;
 /// Least such angle over that of the middle walk: some sets are varied.
 const OVER_MIDDLE: f64 = 3.0;
 
-/// Adds a warning to the windows of a style's clips that walk with an unusual carriage.
+/// Number of [`PARTS`].
+const COUNT: usize = PARTS.len();
+
+/// How the walks of a style hold the parts.
+struct UsualCarriage {
+    /// Median of each direction.
+    directions: [Vec3; COUNT],
+    /// Angle of the middle walk from it, degrees.
+    middle_deg: [f64; COUNT],
+}
+
+/// Adds a warning to the windows of a style's clips that walk or stand with an unusual carriage.
 pub(crate) fn warn_of_unlike_carriages(analyzed: &mut [AnalyzedClip], body: &HumanBody) {
-    let windows: Vec<[usize; 2]> = analyzed
-        .iter()
-        .enumerate()
-        .flat_map(|(clip, found)| (0..found.windows.len()).map(move |window| [clip, window]))
-        .collect();
-    let directions = |&[clip, window]: &[usize; 2]| {
-        let cycle = analyzed[clip].windows[window].stepping().filter(|cycle| walks(cycle))?;
-        Some(([clip, window], part_directions(cycle, body)))
+    let windows = |(clip, found): (usize, &AnalyzedClip)| (0..found.windows.len()).map(move |window| [clip, window]);
+    let windows: Vec<[usize; 2]> = analyzed.iter().enumerate().flat_map(windows).collect();
+    let held = |&[clip, window]: &[usize; 2]| {
+        let found = &analyzed[clip];
+        match &found.windows[window].motion {
+            SteadyMotion::Steps(cycle) => walks(cycle).then(|| ([clip, window], true, part_directions(cycle, body))),
+            SteadyMotion::Stands(frames) => {
+                let cycle = standing_cycle(&found.grounded, body, frames.clone(), STANDING_S);
+                Some(([clip, window], false, part_directions(&cycle, body)))
+            }
+        }
     };
-    let walks: Vec<([usize; 2], [Vec3; PARTS.len()])> = windows.par_iter().filter_map(directions).collect();
+    let held: Vec<([usize; 2], bool, [Vec3; COUNT])> = windows.par_iter().filter_map(held).collect();
+    let walks: Vec<[Vec3; COUNT]> = held.iter().filter(|(_, walks, _)| *walks).map(|(.., parts)| *parts).collect();
     if walks.len() < WALKS_MIN {
         return;
     }
-    for (part, (held, least_deg)) in PARTS.into_iter().enumerate() {
-        let of_axis =
-            |axis: usize| median(walks.iter().map(|(_, parts)| f64::from(parts[part][axis]))).unwrap_or_default();
-        let usual = DVec3::new(of_axis(0), of_axis(1), of_axis(2)).as_vec3();
-        let angles_deg: Vec<f64> =
-            walks.iter().map(|(_, parts)| f64::from(parts[part].angle_between(usual).to_degrees())).collect();
-        let middle_deg = median(angles_deg.iter().copied()).unwrap_or_default();
-        for (([clip, window], _), angle_deg) in walks.iter().zip(angles_deg) {
-            if angle_deg > least_deg.max(OVER_MIDDLE * middle_deg) {
-                let warning = Warning::CarriageUnlike { part: held, angle_deg: angle_deg as f32, from_s: None };
-                analyzed[*clip].windows[*window].diagnostics.push(Diagnostic::Warning(warning));
+    let usual = UsualCarriage::of(&walks);
+    for ([clip, window], walks, parts) in &held {
+        let unlike = usual.unlike(parts);
+        // A body that stands may fold both arms, or rest them on its hips.
+        let arms = unlike.iter().filter(|(part, _)| [HeldPart::LeftArm, HeldPart::RightArm].contains(part)).count();
+        let counts = |part: HeldPart| *walks || part == HeldPart::Trunk || part != HeldPart::Head && arms == 1;
+        let warnings = unlike.iter().filter(|(part, _)| counts(*part)).map(|&(part, angle_deg)| {
+            Diagnostic::Warning(Warning::CarriageUnlike { part, angle_deg: angle_deg as f32, from_s: None })
+        });
+        analyzed[*clip].windows[*window].diagnostics.extend(warnings);
+    }
+}
+
+impl UsualCarriage {
+    fn of(walks: &[[Vec3; COUNT]]) -> Self {
+        let median_of = |value: &dyn Fn(&[Vec3; COUNT]) -> f32| {
+            median(walks.iter().map(|parts| f64::from(value(parts)))).unwrap_or_default()
+        };
+        let directions = std::array::from_fn(|part| {
+            let axis = |axis: usize| median_of(&|parts| parts[part][axis]) as f32;
+            Vec3::new(axis(0), axis(1), axis(2))
+        });
+        let middle_deg = std::array::from_fn(|part| {
+            median_of(&|parts: &[Vec3; COUNT]| parts[part].angle_between(directions[part]).to_degrees())
+        });
+        Self { directions, middle_deg }
+    }
+
+    /// The parts that are held otherwise, each with its greatest angle, degrees.
+    fn unlike(&self, parts: &[Vec3; COUNT]) -> Vec<(HeldPart, f64)> {
+        let mut unlike: Vec<(HeldPart, f64)> = Vec::new();
+        for (index, (part, least_deg)) in PARTS.into_iter().enumerate() {
+            let angle_deg = f64::from(parts[index].angle_between(self.directions[index]).to_degrees());
+            if angle_deg <= least_deg.max(OVER_MIDDLE * self.middle_deg[index]) {
+                continue;
+            }
+            match unlike.iter_mut().find(|(other, _)| *other == part) {
+                Some((_, greatest_deg)) => *greatest_deg = greatest_deg.max(angle_deg),
+                None => unlike.push((part, angle_deg)),
             }
         }
+        unlike
     }
 }
 
@@ -67,9 +122,8 @@ fn walks(cycle: &GaitCycle) -> bool {
     !cycle.is_run() && goes_ahead && turn_rate_rad_s.abs() < TURN_MAX_RAD_S
 }
 
-/// Mean directions of [`PARTS`] over a cycle: from each shoulder to its wrist, where the head faces, from the pelvis to the
-/// neck.
-fn part_directions(cycle: &GaitCycle, body: &HumanBody) -> [Vec3; PARTS.len()] {
+/// Mean directions over a cycle, in the order of [`PARTS`].
+fn part_directions(cycle: &GaitCycle, body: &HumanBody) -> [Vec3; COUNT] {
     let joints = cycle.joints(body);
     let mean_of = |from: Joint, to: Joint| {
         let directions =
@@ -78,8 +132,10 @@ fn part_directions(cycle: &GaitCycle, body: &HumanBody) -> [Vec3; PARTS.len()] {
     };
     let head = joints.iter().map(|joints| joints.orientations[Joint::Head.index()] * DVec3::X).sum::<DVec3>().as_vec3();
     [
-        mean_of(Joint::LeftUpperArm, Joint::LeftHand),
-        mean_of(Joint::RightUpperArm, Joint::RightHand),
+        mean_of(Joint::LeftUpperArm, Joint::LeftForearm),
+        mean_of(Joint::LeftForearm, Joint::LeftHand),
+        mean_of(Joint::RightUpperArm, Joint::RightForearm),
+        mean_of(Joint::RightForearm, Joint::RightHand),
         head,
         mean_of(Joint::Pelvis, Joint::Neck),
     ]
@@ -90,19 +146,21 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::synthetic::{SyntheticWalk, database_of, walk};
+    use crate::synthetic::{SyntheticWalk, database_of, idle, walk};
 
-    /// Parts in the warnings about six walks, of which the last turns a joint.
-    fn held(joint: Joint, turn: DQuat) -> Vec<HeldPart> {
+    /// Parts in the warnings about six walks and an idle, of which one turns joints.
+    fn held(odd: &str, joints: &[Joint], turn: DQuat) -> Vec<HeldPart> {
         let at = |speed_mps: f64| walk(&format!("walk_{speed_mps}"), SyntheticWalk::at(speed_mps, 0.0, 0.0));
-        let mut clips: Vec<_> = [0.6, 0.8, 1.0, 1.2, 1.4, 1.6].map(at).into();
-        for pose in &mut clips[5].frames {
-            pose.rotations[joint.index()] = turn * pose.rotations[joint.index()];
+        let walks = [0.6, 0.8, 1.0, 1.2, 1.4, 1.6].map(at);
+        let mut clips: Vec<_> = walks.into_iter().chain([idle("idle", 3.0)]).collect();
+        let odd_clip = clips.iter_mut().find(|clip| clip.name == odd).unwrap();
+        for pose in &mut odd_clip.frames {
+            joints.iter().for_each(|joint| pose.rotations[joint.index()] = turn * pose.rotations[joint.index()]);
         }
         let db = database_of(clips, 0);
         let part = |source: usize, found: &Diagnostic| match found {
             Diagnostic::Warning(Warning::CarriageUnlike { part, .. }) => {
-                assert_eq!(db.sources[source].file, "walk_1.6.bvh");
+                assert_eq!(db.sources[source].file, format!("{odd}.bvh"));
                 Some(*part)
             }
             _ => None,
@@ -114,9 +172,19 @@ mod tests {
 
     #[test]
     fn parts_held_otherwise_are_named() {
-        assert!(held(Joint::Head, DQuat::IDENTITY).is_empty());
-        assert_eq!(held(Joint::Head, DQuat::from_rotation_z(1.2)), [HeldPart::Head]);
-        assert_eq!(held(Joint::RightUpperArm, DQuat::from_rotation_y(-1.2)), [HeldPart::RightArm]);
-        assert!(held(Joint::SpineLower, DQuat::from_rotation_y(0.6)).contains(&HeldPart::Trunk));
+        let of_walk = |joint: Joint, turn: DQuat| held("walk_1.6", &[joint], turn);
+        assert!(of_walk(Joint::Head, DQuat::IDENTITY).is_empty());
+        assert_eq!(of_walk(Joint::Head, DQuat::from_rotation_z(1.2)), [HeldPart::Head]);
+        assert_eq!(of_walk(Joint::RightUpperArm, DQuat::from_rotation_y(-1.2)), [HeldPart::RightArm]);
+        assert_eq!(of_walk(Joint::LeftForearm, DQuat::from_rotation_z(-1.8)), [HeldPart::LeftArm]);
+        assert!(of_walk(Joint::SpineLower, DQuat::from_rotation_y(0.6)).contains(&HeldPart::Trunk));
+    }
+
+    #[test]
+    fn a_body_that_stands_may_hold_both_arms_otherwise() {
+        let of_idle = |joints: &[Joint], turn_rad: f64| held("idle", joints, DQuat::from_rotation_y(turn_rad));
+        assert_eq!(of_idle(&[Joint::LeftUpperArm], -0.9), [HeldPart::LeftArm]);
+        assert!(of_idle(&Joint::UPPER_ARMS, -0.9).is_empty());
+        assert!(of_idle(&[Joint::SpineLower], 0.5).contains(&HeldPart::Trunk));
     }
 }

@@ -113,10 +113,16 @@ fn dropped_frames_are_reported() {
     for clip in ["walk_110", "turn_090_left", "run_350"] {
         let dropped = share(clip, &|frame| usize::from(frame % 7 != 3)).unwrap_or_default();
         assert!((dropped - 1.0 / 7.0).abs() < 0.02, "{clip}: {dropped}");
-        // Repeated frames, as of a film at 24 Hz played at 30, keep the time.
+        // Frames that are repeated, as of a film at 24 Hz played at 30, keep the time.
         for times in [&|_| 1, &|frame| 1 + usize::from(frame % 4 == 0), &|_| 2] as [&dyn Fn(usize) -> usize; 3] {
             assert_eq!(share(clip, times), None, "{clip}");
         }
+        let found = diagnostics(&with_frames(clip, |_| 2));
+        let is_half = |found: &Diagnostic| match found {
+            Diagnostic::Warning(Warning::FramesRepeated { share }) => (share - 0.5).abs() < 0.01,
+            _ => false,
+        };
+        assert!(found.iter().any(is_half), "{clip}: {found:?}");
     }
     assert_eq!(share("idle", &|frame| usize::from(frame % 7 != 3)), None);
 }

@@ -221,10 +221,10 @@ impl Manifest {
     pub(crate) fn not_stepping(&self, stepping: &[String]) -> Invalid {
         let span = self.semi_procedural.as_ref().map_or(0..0, Spanned::span);
         if stepping.is_empty() {
-            let message = "no stepping cycle found; this clip cannot be the base walk (m_sp)";
+            let message = "no walk straight ahead found; this clip cannot be the base walk (m_sp)";
             return self.source.invalid(span, message, "choose a straight walk");
         }
-        let message = format!("no stepping cycle of this name; this clip gives {}", stepping.join(", "));
+        let message = format!("no walk ahead of this name; this clip gives {}", stepping.join(", "));
         self.source.invalid(span, message, "name one of these")
     }
 
