@@ -9,9 +9,9 @@ use motiondb::motion::Parameters;
 
 use crate::maths::arc::moved_root;
 use crate::planning::plan::Plan;
-use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase, stance_foot};
+use crate::synthesis::command::start_stop::{first_step_phase, stance_foot};
 use crate::synthesis::hybrid::{ExtraState, MotionState};
-use crate::synthesis::pose::ContactState;
+use crate::synthesis::pose::{ContactState, FootLock};
 use crate::synthesis::{Body, Mode, SynthesisContext, TimeStep};
 
 impl Body {
@@ -31,9 +31,9 @@ impl Body {
         let plan = command.accumulator.follow(plan, *actual_mps, step);
         let (traits, deformed) = (motion.traits, motion.deformed(context));
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
-        let feet_gathered = || feet_gathered(contact, root, &context.domain);
+        let feet_planted = contact.locks.iter().all(FootLock::planted);
         let rests = command.step_state.comes_to_rest(&reachable, &command.filter, &context.domain, &traits);
-        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, rests, feet_gathered, step.dt_s)
+        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, rests, feet_planted, step.dt_s)
         {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             let stance = stance_foot(phase);
@@ -49,13 +49,13 @@ impl Body {
         let current = motion.current(&context.db);
         *actual_mps = move_root(root, &current, step.dt_s);
         let phase_before = motion.phase;
-        let closes_feet = command.step_state.closes_feet();
+        let stops = command.step_state.stops();
         let rate_factor = match phase_rate_factor(motion, &current, contact, root, *actual_mps, step) {
-            // A foot that closes does not wait until the root is over the other one.
-            factor if closes_feet => factor.max(1.0),
+            // A foot that lands for the stop does not wait until the root is over the other one.
+            factor if stops => factor.max(1.0),
             factor => factor,
         };
-        motion.take_steps(root, target, rate_factor, closes_feet, context, step);
+        motion.take_steps(root, target, rate_factor, stops, context, step);
         let advanced = motion.phase - phase_before;
         motion.idle.advance(&context.db, step.dt_s);
         let reverses = motion.smooth(&context.db, step);

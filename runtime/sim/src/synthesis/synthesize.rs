@@ -14,7 +14,7 @@ use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{
     BodyClearance, ContactState, ExcessLean, FootMotion, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift,
 };
-use crate::synthesis::{Body, BodyOutput, SynthesisContext, TimeStep, Traits};
+use crate::synthesis::{Body, BodyOutput, Mode, SynthesisContext, TimeStep, Traits};
 
 /// Height above which the pose difference after a switch keeps a foot off the ground, m: the height by which the
 /// compiler finds contacts in clips.
@@ -53,7 +53,20 @@ impl Body {
 
     /// Poses the body at its present phase and root.
     pub fn synthesize(&mut self, context: &SynthesisContext, step: &TimeStep) -> BodyOutput {
-        let Self { root, motion, contact, look_at, lean, secondary, squeeze, room, clearance, weight_shift, .. } = self;
+        let Self {
+            root,
+            motion,
+            contact,
+            look_at,
+            lean,
+            secondary,
+            squeeze,
+            room,
+            clearance,
+            weight_shift,
+            command,
+            ..
+        } = self;
         // All is done in the frame of the root under the drawn body.
         let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root).frame());
         let room = room.seen_from(frame.position_m, frame.forward);
@@ -67,9 +80,18 @@ impl Body {
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step));
+        let mut contacts_ahead = contacts_ahead(&active, motion, context);
+        let stands = command.step_state.stands && motion.mode == Mode::Blending;
+        contact.settling.follow(stands, &contact.locks, step.dt_s);
+        let settling = contact.settling.swing();
+        if let Some((side, left_s)) = settling {
+            posture.contacts[side] = 0.0;
+            contacts_ahead[side] = if left_s > LANDING_AHEAD_S { 0.0 } else { 1.0 };
+        }
         let feet = FootMotion {
             planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
-            contacts_ahead: contacts_ahead(&active, motion, context),
+            contacts_ahead,
+            settles: settling.is_some(),
             turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
             is_new: motion.has_jumped,
         };
@@ -80,7 +102,12 @@ impl Body {
         contact.record_drawn(&soles_m, &frame, step);
         motion.has_jumped = false;
         let (posture, soles_m) = in_root_frame(posture, soles_m, &frame, &root.frame());
-        output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context)
+        let mut output =
+            output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context);
+        if let (Some(foot), Some((_, left_s))) = (&mut output.stance.foot, settling) {
+            foot.time_to_landing_s = left_s;
+        }
+        output
     }
 }
 

@@ -57,6 +57,8 @@ pub const INERTIA_DURATION_S: f32 = 0.4;
 const LOOK_BACK_S: f32 = 1.0 / 120.0;
 /// Rate of the filter that releases a foot lock (`foot_lock`), 1/s: 2 % is left after 0.25 s, before the foot lands.
 const LOCK_RELEASE_RATE_HZ: f32 = 30.0;
+/// Rate of the filter that moves a foot in a settling step (`foot_lock`), 1/s: 2 % of the way is left when it lands.
+const SETTLING_RATE_HZ: f32 = 20.0;
 /// Rate of the filter that lowers a planted sole to the ground and lifts a swinging one (`foot_lock`), 1/s.
 const FOOT_LIFT_RATE_HZ: f32 = 80.0;
 /// Time constant with which a foot that lands while it still moves comes to rest (`foot_lock`), s. It is well within
@@ -104,6 +106,8 @@ pub struct TimeStep {
     pub(crate) inertia: Spring,
     /// Filter that releases a foot lock.
     pub(crate) lock_release: SoftSpring,
+    /// Filter of a settling step.
+    pub(crate) settling: SoftSpring,
     /// Filter of the lift of a foot.
     pub(crate) foot_lift: SoftSpring,
     /// Shares left of the speed of a landing foot: after the step, and after half of it.
@@ -137,6 +141,7 @@ impl TimeStep {
             weight_shift: soft_spring(WEIGHT_SHIFT_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),
             lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
+            settling: soft_spring(SETTLING_RATE_HZ),
             foot_lift: soft_spring(FOOT_LIFT_RATE_HZ),
             landing_left: [LANDING_TIME_S, 2.0 * LANDING_TIME_S].map(left),
             foot_speed_left: left(FOOT_SPEED_TIME_S),

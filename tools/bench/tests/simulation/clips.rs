@@ -19,6 +19,11 @@ pub(super) fn bundled_alone(file: &str) -> MotionDb {
     compiled(vec![bundled_folder().join(file)])
 }
 
+/// The bundled walk at 1.1 m/s and the idle.
+pub(super) fn bundled_walk_and_idle() -> MotionDb {
+    compiled(["walk_110.bvh", "idle.bvh"].map(|file| bundled_folder().join(file)).to_vec())
+}
+
 /// Clips of others: those of a folder, or one file.
 pub(super) fn recorded(path: &str) -> MotionDb {
     let path = mocap().join(path);

@@ -68,7 +68,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::synthesis::pose::foot_lock::PosedFoot;
+    use crate::synthesis::pose::foot_lock::{Footing, PosedFoot};
 
     /// Factors on the phase rate, step by step, where the planted feet of the pose slide back at `slide_mps`.
     fn factors(slide_mps: f32, seconds: f32) -> Vec<f32> {
@@ -78,6 +78,7 @@ mod tests {
             sole_m: [-0.05, 0.13, 0.2].map(|along_m| Vec3::new(along_m - slide_mps * time_s, 0.0, 0.0)),
         };
         let (mut catch_up, mut feet) = (PhaseCatchUp::default(), [FootLock::new(&posed(0.0)); 2]);
+        let footing = Footing { planted: true, contact_ahead: 1.0, ..Footing::default() };
         let mut factor = |index: usize| {
             // Each half second a new stance begins.
             let since = index % 30;
@@ -86,7 +87,7 @@ mod tests {
                 if since == 0 {
                     *foot = FootLock::new(&posed(time_s));
                 }
-                let locked = foot.step(&posed(time_s), true, 1.0, Vec2::ZERO, 0.0, &step);
+                let locked = foot.step(&posed(time_s), &footing, &step);
                 let moved_m = locked.ankle_m - posed(time_s).ankle_m;
                 foot.record_drawn(posed(time_s).sole_m.map(|point_m| point_m + moved_m), &step);
             });

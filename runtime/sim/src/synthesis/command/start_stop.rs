@@ -1,4 +1,4 @@
-//! The feet of a body that starts or stops to step: which foot makes the first step, and when both are under the body.
+//! The feet of a body that starts to step: which of them makes the first step.
 //!
 //! Positions are those of the balls of the feet, relative to those of a standing body, metres.
 
@@ -10,8 +10,6 @@ use crate::synthesis::Traits;
 use crate::synthesis::blending::BlendDomain;
 use crate::synthesis::pose::ContactState;
 
-/// Greatest distance of a foot from its position in standing at which it is under the body, m: half a small step.
-const GATHERED_M: f32 = 0.18;
 /// Phase of the first step before the swinging foot passes the other: the foot lifts there, and passes when stepping
 /// has faded in.
 const LIFT_OFF_PHASE: f32 = 0.15;
@@ -19,8 +17,8 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 const SIDE_LEAD_M: f32 = 0.1;
 
 /// Phase of the first step; the phase of a standing body is free, since standing hardly moves. The foot that lifts is
-/// the one further behind, or the one on the side of the step; where neither is, the body's first foot. So the other
-/// foot is under the body.
+/// the one in the air already, the one further behind, or the one on the side of the step; where none is, the body's first
+/// foot. So the other foot is under the body.
 pub(crate) fn first_step_phase(
     command: Parameters,
     contact: &ContactState,
@@ -35,22 +33,13 @@ pub(crate) fn first_step_phase(
         ball_m.truncate().dot(direction)
     });
     let to_left = direction.y + turn_rate_rad_s / domain.turn_rate_max_rad_s;
-    let passing_phase = if ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left + traits.first_foot_m { 1.0 } else { 0.5 };
+    let left_is_behind = ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left + traits.first_foot_m;
+    let lifts_left = contact.settling.swing().map_or(left_is_behind, |(side, _)| side == 0);
+    let passing_phase = if lifts_left { 1.0 } else { 0.5 };
     passing_phase - LIFT_OFF_PHASE
 }
 
 /// The foot that stays on the ground in a first step from a phase; 0 is the left one.
 pub(crate) fn stance_foot(first_step_phase: f32) -> usize {
     usize::from(first_step_phase > 0.5)
-}
-
-/// Whether both feet are planted, and near enough to their positions in standing.
-pub(crate) fn feet_gathered(contact: &ContactState, root: &Root, domain: &BlendDomain) -> bool {
-    let frame = root.frame();
-    let gathered = |side: usize| {
-        let standing_m = frame.to_world(domain.standing_balls_m[side]);
-        let off_m = (contact.locks[side].ball_m() - standing_m).truncate();
-        contact.locks[side].planted() && off_m.length() < GATHERED_M
-    };
-    gathered(0) && gathered(1)
 }

@@ -3,7 +3,8 @@
 //! A mix of little steps and much idle lifts no foot: by the blended contact Σ w·c both feet stay planted as long as
 //! standing has the greater share. So a body stands, or it takes at least the *least steps*, a mix with
 //! [`IDLE_SHARE_MAX`] of standing. Slower steps are the least steps at a lower playback rate, down to
-//! [`PLAYBACK_RATE_MIN`]. A body that stops takes small steps until its feet are under it.
+//! [`PLAYBACK_RATE_MIN`]. A body that stops does so as soon as both feet are planted: its root comes to rest as the
+//! command does, and settling steps bring the feet under it ([`crate::synthesis::pose::settling_step`]).
 //!
 //! Parameters are (v_f, ω_t, ω_s) in the body's frame, m/s and rad/s; shares are shares of time.
 
@@ -34,12 +35,14 @@ const STATE_DURATION_S: f32 = 0.4;
 /// Time ahead at which a command that passes through rest is evaluated, s: the duration of a change from one side-step
 /// to the other at 2.5 m/s².
 const PASSING_TIME_S: f32 = 0.2;
-/// Time ahead at which a command that comes to rest is evaluated, s: the duration of the step that closes the feet.
-const CLOSING_STEP_S: f32 = 0.35;
-/// Greatest duration of the small steps by which a stopping body gathers its feet, s.
-const GATHERING_DURATION_MAX_S: f32 = 1.2;
-/// Share of the current velocity at which a body gathers its feet, unless the least steps are faster.
-const GATHERING_SPEED_SHARE: f32 = 0.25;
+/// Time ahead at which a command that comes to rest is evaluated, s: the duration of the last step.
+const LAST_STEP_S: f32 = 0.35;
+/// Greatest time for which a stopping body waits until both feet are planted, s: those of a run never are.
+const STOPPING_MAX_S: f32 = 1.2;
+/// Share of the current velocity in the last step of a body whose command rests, unless the least steps are faster.
+const LAST_STEP_SPEED_SHARE: f32 = 0.25;
+/// Speed below which the root of a standing body rests, m/s.
+const RESTING_MPS: f32 = 0.02;
 
 /// Whether a body stands or steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,32 +51,26 @@ pub(crate) struct StepState {
     pub stands: bool,
     /// Duration of the present state, s.
     duration_s: f32,
-    /// Time for which the body has been gathering its feet, s; 0 while it is not to stop.
-    gathering_s: f32,
+    /// Time for which the body has been waiting until both feet are planted, s; 0 while it is not to stop.
+    stopping_s: f32,
 }
 
 impl StepState {
     /// A body that stands and may start at once.
-    pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, gathering_s: 0.0 };
+    pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, stopping_s: 0.0 };
 
     /// Follows what the examples reach of the command, with hysteresis. `comes_to_rest` states whether the command will
-    /// rest by the end of a step, `feet_gathered` whether the feet are under the body. Returns whether the body starts to
+    /// rest by the end of a step, `feet_planted` whether both feet are. Returns whether the body starts to
     /// step.
-    pub(crate) fn follow(
-        &mut self,
-        reachable: &Reachable,
-        comes_to_rest: bool,
-        feet_gathered: impl FnOnce() -> bool,
-        dt_s: f32,
-    ) -> bool {
+    pub(crate) fn follow(&mut self, reachable: &Reachable, comes_to_rest: bool, feet_planted: bool, dt_s: f32) -> bool {
         let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
         let may_change = self.duration_s >= STATE_DURATION_S;
         let rests = idle_share > STOP_IDLE_SHARE || comes_to_rest;
         let stop = !self.stands && (may_change && rests || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && may_change && idle_share < START_IDLE_SHARE;
-        self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
-        if start || self.gathering_s > GATHERING_DURATION_MAX_S || stop && feet_gathered() {
-            *self = Self { stands: !self.stands, duration_s: 0.0, gathering_s: 0.0 };
+        self.stopping_s = if stop { self.stopping_s + dt_s } else { 0.0 };
+        if start || self.stopping_s > STOPPING_MAX_S || stop && feet_planted {
+            *self = Self { stands: !self.stands, duration_s: 0.0, stopping_s: 0.0 };
         }
         self.duration_s += dt_s;
         start
@@ -100,14 +97,14 @@ impl StepState {
         domain: &BlendDomain,
         traits: &Traits,
     ) -> bool {
-        let slows_down = || domain.reachable_with(filter.ahead(CLOSING_STEP_S), traits.cadence);
+        let slows_down = || domain.reachable_with(filter.ahead(LAST_STEP_S), traits.cadence);
         !self.stands && reachable.idle_share > IDLE_SHARE_MAX && slows_down().idle_share > STOP_IDLE_SHARE
     }
 
-    /// Whether the body makes the step that is to bring its feet together. Where steps are long, its root must then come
-    /// over the foot that has landed.
-    pub(crate) fn closes_feet(&self) -> bool {
-        self.gathering_s > 0.0 && self.gathering_s < CLOSING_STEP_S
+    /// Whether the body stops where its swinging foot lands. A foot that swings for longer has a long step, and its root must
+    /// come over the other one.
+    pub(crate) fn stops(&self) -> bool {
+        self.stopping_s > 0.0 && self.stopping_s < LAST_STEP_S
     }
 
     /// Whether the body walks and its command continues the walk.
@@ -115,8 +112,8 @@ impl StepState {
         !self.stands && reachable.idle_share < IDLE_SHARE_MAX
     }
 
-    /// Target of the active motion: what the examples reach of the command, at no less than the least steps; standing
-    /// for a body that stands. `current` gives the direction of the steps that gather the feet.
+    /// Target of the active motion: what the examples reach of the command, at no less than the least steps. The root of a
+    /// body that stands, at its `current` parameters, comes to rest as the command does.
     pub(crate) fn target(
         &self,
         reachable: &Reachable,
@@ -125,15 +122,19 @@ impl StepState {
         traits: &Traits,
     ) -> Parameters {
         if self.stands {
-            return domain.standing.parameters;
+            let (current, wanted) = (current.to_vec3(), reachable.parameters.to_vec3());
+            let share = wanted.dot(current) / current.length_squared().max(f32::MIN_POSITIVE);
+            let slowed = Parameters::from_vec3(share.clamp(0.0, 1.0) * current);
+            let rests = slowed.velocity_mps().length() < RESTING_MPS;
+            return if rests { domain.standing.parameters } else { slowed };
         }
         let steps = if reachable.idle_share > HALT_IDLE_SHARE {
-            let gathering = Parameters::from_vec3(GATHERING_SPEED_SHARE * current.to_vec3());
-            &domain.reachable_with(gathering, traits.cadence)
+            let last_step = Parameters::from_vec3(LAST_STEP_SPEED_SHARE * current.to_vec3());
+            &domain.reachable_with(last_step, traits.cadence)
         } else {
             reachable
         };
-        let playback_rate_min = if self.gathering_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
+        let playback_rate_min = if self.stopping_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
         // Standing lies at the origin, so a scaled point has the scaled share of steps.
         let stepping_share = (1.0 - steps.idle_share).max(1.0 - HALT_IDLE_SHARE);
         let scale = (playback_rate_min * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
@@ -167,6 +168,6 @@ mod tests {
         let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
         let reachable = Reachable { parameters, idle_share: 0.92, playback_rate: 1.0, ..Reachable::default() };
         let mut step_state = StepState::STANDING;
-        assert!(step_state.follow(&reachable, false, || true, 1.0 / 30.0));
+        assert!(step_state.follow(&reachable, false, true, 1.0 / 30.0));
     }
 }

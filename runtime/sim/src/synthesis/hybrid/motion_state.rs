@@ -176,20 +176,21 @@ impl MotionState {
     }
 
     /// Advances the phase over one step, at a factor on its rate, while the motion moves toward a target; the pace and
-    /// the lead of the steps follow. `closes_feet` states whether the body only brings its feet together.
+    /// the lead of the steps follow. `stops` states whether the body stops where
+    /// its swinging foot lands.
     pub(crate) fn take_steps(
         &mut self,
         root: &Root,
         target: Parameters,
         rate_factor: f32,
-        closes_feet: bool,
+        stops: bool,
         context: &SynthesisContext,
         step: &TimeStep,
     ) {
         match self.transition {
             Some(played) => self.play(played, root.forward(), &context.db, step),
             None => {
-                self.time_steps(root, target, closes_feet, context, step);
+                self.time_steps(root, target, stops, context, step);
                 self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
             }
         }
@@ -209,7 +210,7 @@ impl MotionState {
         &mut self,
         root: &Root,
         target: Parameters,
-        closes_feet: bool,
+        stops: bool,
         context: &SynthesisContext,
         step: &TimeStep,
     ) {
@@ -222,7 +223,7 @@ impl MotionState {
             base_hz: self.traits.cadence * context.base_hz,
             velocity_mps: root.forward().rotate(self.drawn_mps(&context.db)),
             speed_to_come: target.velocity_mps().length() / context.base_mps,
-            closes_feet,
+            stops,
         };
         self.timing.follow(self.phase, &gait, step);
     }

@@ -16,8 +16,8 @@
 //! G = (1 − 1/q)·T      lead that a swing of duration T at pace 1 gains.
 //! ```
 //!
-//! A lead across v, and that of a body at rest, decays: nothing else makes it up. A body that only brings its feet together
-//! does not wait while both stand.
+//! A lead across v, and that of a body at rest, decays: nothing else makes it up. A body that stops where its
+//! swinging foot lands does not wait while both stand.
 //!
 //! World, metres, seconds; phases as in [`crate::synthesis`].
 
@@ -60,7 +60,7 @@ impl Default for StepTiming {
 impl StepTiming {
     /// Follows a gait at a phase.
     pub(crate) fn follow(&mut self, phase: f32, gait: &GaitTiming, step: &TimeStep) {
-        let &GaitTiming { mean_hz, base_hz, velocity_mps, speed_to_come, closes_feet } = gait;
+        let &GaitTiming { mean_hz, base_hz, velocity_mps, speed_to_come, stops } = gait;
         let swing_pace = swing_pace(mean_hz / base_hz, speed_to_come);
         if swing_pace == 1.0 && *self == Self::default() {
             return;
@@ -72,7 +72,7 @@ impl StepTiming {
         let since = phase - 0.5 * (2.0 * phase).round();
         let pace = if since.abs() < SWING_HALF {
             swing_pace
-        } else if closes_feet {
+        } else if stops {
             RESTING_PACE[1]
         } else {
             let gained_s = (1.0 - 1.0 / swing_pace) * 2.0 * SWING_HALF / mean_hz;
@@ -114,8 +114,8 @@ pub(crate) struct GaitTiming {
     pub(crate) velocity_mps: Vec2,
     /// Speed to which the body is to change, divided by that of the base walk.
     pub(crate) speed_to_come: f32,
-    /// Whether the body steps only to bring its feet together: it does not rest between these steps.
-    pub(crate) closes_feet: bool,
+    /// Whether the body stops where its swinging foot lands.
+    pub(crate) stops: bool,
 }
 
 /// q of a gait, given its phase rate and the speed to come, each divided by that of the base walk. The step that a body
@@ -136,7 +136,7 @@ mod tests {
 
     fn gait(mean_hz: f32, speed_mps: f32) -> GaitTiming {
         let (velocity_mps, speed_to_come) = (speed_mps * Vec2::X, speed_mps / 1.1);
-        GaitTiming { mean_hz, base_hz: 0.83, velocity_mps, speed_to_come, closes_feet: false }
+        GaitTiming { mean_hz, base_hz: 0.83, velocity_mps, speed_to_come, stops: false }
     }
 
     /// Durations of the swings and of whole strides of a gait, and the range of its lead after some strides, s.

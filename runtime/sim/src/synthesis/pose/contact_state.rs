@@ -7,18 +7,21 @@ use motiondb::body::{Joint, RootFrame, Skeleton};
 
 use crate::planning::elbow_room::ElbowRoom;
 use crate::synthesis::TimeStep;
-use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot, pivot_rate_rad_s};
+use crate::synthesis::pose::foot_lock::{FootLock, Footing, PosedFoot, pivot_rate_rad_s};
 use crate::synthesis::pose::foot_room::back_m;
 use crate::synthesis::pose::leg::FootPose;
 use crate::synthesis::pose::leg_clearance::{LAG_S, aside_m};
 use crate::synthesis::pose::pelvis::PelvisDrop;
 use crate::synthesis::pose::posture::Posture;
+use crate::synthesis::pose::settling_step::SettlingStep;
 
-/// Foot locks and pelvis drop of a body.
+/// Foot locks, settling step and pelvis drop of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactState {
     /// Lock of each foot, `[left, right]`.
     pub locks: [FootLock; 2],
+    /// Step by which a standing body brings a foot under itself.
+    pub settling: SettlingStep,
     /// Drop of the pelvis.
     pelvis_drop: PelvisDrop,
 }
@@ -28,7 +31,7 @@ impl ContactState {
     pub(crate) fn standing(posture: &Posture, frame: &RootFrame, skeleton: &Skeleton) -> Self {
         let soles_m = posture.soles_m(skeleton);
         let lock = |side: usize| FootLock::new(&posed_foot(frame, &posture.feet[side], soles_m[side]));
-        Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
+        Self { locks: [0, 1].map(lock), ..Self::default() }
     }
 
     /// Moves the feet of a posture to their locks, swinging ones back towards the room and past the stance leg, and lowers
@@ -62,8 +65,9 @@ impl ContactState {
                 Vec2::ZERO
             };
             let away_m = frame.forward.rotate(into_room_m + past_stance_m);
-            let (planted, ahead) = (motion.planted[side], motion.contacts_ahead[side]);
-            let lock = self.locks[side].step(&posed, planted, ahead, away_m, pivot_rad, step);
+            let (planted, contact_ahead) = (motion.planted[side], motion.contacts_ahead[side]);
+            let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles: motion.settles };
+            let lock = self.locks[side].step(&posed, &footing, step);
             held[side] = lock.is_held;
             locked[side] =
                 FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
@@ -86,6 +90,8 @@ pub(crate) struct FootMotion {
     pub(crate) planted: [bool; 2],
     /// Contact of each foot [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
     pub(crate) contacts_ahead: [f32; 2],
+    /// Whether a foot makes a settling step.
+    pub(crate) settles: bool,
     /// Turn rate of the body, rad/s.
     pub(crate) turn_rate_rad_s: f32,
     /// Whether this is the first step after a switch.

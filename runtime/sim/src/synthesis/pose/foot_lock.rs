@@ -18,7 +18,7 @@ use glam::{Quat, Vec2, Vec3};
 use crate::maths::angle::{angle_between_rad, unit_vector, yaw};
 use crate::maths::decay::soft_maximum;
 use crate::synthesis::TimeStep;
-use crate::synthesis::time_step::LANDING_TIME_S;
+use crate::synthesis::time_step::{LANDING_TIME_S, SoftSpring};
 
 /// Clearance of a swinging foot in short steps and in walking, m: captured steps of 15 to 30 cm lift the sole by 16
 /// to 23 mm; toes in walking clear 13 mm (Winter 1992). Blends with standing would drag the toes.
@@ -32,7 +32,9 @@ pub(crate) const LANDING_AHEAD_S: f32 = 0.06;
 /// Softness of the lift at the clearance, m: lifting has no edge.
 const CLEARANCE_SOFTNESS_M: f32 = 0.002;
 /// Greatest shift c, m: that of a step broken off half-way. Beyond it the foot slides.
-const SHIFT_MAX_M: f32 = 0.35;
+const SHIFT_MAX_M: f32 = 0.45;
+/// Distance of the toes from the axis of a twist, m.
+const TOES_M: f32 = 0.25;
 /// Greatest twist ψ, rad: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 
@@ -95,6 +97,21 @@ pub(crate) fn pivot_rate_rad_s(turn_rate_rad_s: f32) -> f32 {
     PIVOT_SHARE * (turn_rate_rad_s.abs() - PIVOT_FROM_RAD_S).max(0.0).copysign(turn_rate_rad_s)
 }
 
+/// What a lock follows in a step beside the foot of the pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Footing {
+    /// Whether the foot is planted.
+    pub planted: bool,
+    /// Contact of the pose's foot [`LANDING_AHEAD_S`] later.
+    pub contact_ahead: f32,
+    /// Shift to which a swinging foot moves because something stands in its path, m.
+    pub away_m: Vec2,
+    /// Angle by which a planted foot pivots, rad.
+    pub pivot_rad: f32,
+    /// Whether a swinging foot makes a settling step.
+    pub settles: bool,
+}
+
 /// Target of a locked foot, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LockedFoot {
@@ -114,18 +131,9 @@ impl FootLock {
         Self { lowest, height_m, heading_m, ankle_m, sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later,
-    /// `away_m` the shift to which a swinging foot moves because something stands in its path, `pivot_rad` the angle
-    /// by which a planted foot pivots.
-    pub(crate) fn step(
-        &mut self,
-        posed: &PosedFoot,
-        planted: bool,
-        contact_ahead: f32,
-        away_m: Vec2,
-        pivot_rad: f32,
-        step: &TimeStep,
-    ) -> LockedFoot {
+    /// Moves the lock by one step.
+    pub(crate) fn step(&mut self, posed: &PosedFoot, footing: &Footing, step: &TimeStep) -> LockedFoot {
+        let Footing { planted, contact_ahead, away_m, pivot_rad, settles } = *footing;
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
         // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
@@ -133,7 +141,7 @@ impl FootLock {
         if is_held {
             self.hold(posed, lowest, [angle_between_rad(self.heading_m, heading_m), pivot_rad], step);
         } else {
-            self.release(away_m, step);
+            self.release(away_m, if settles { &step.settling } else { &step.lock_release });
             self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_m, self.ankle_m) =
@@ -151,6 +159,12 @@ impl FootLock {
     /// Shift c of a planted foot, m.
     pub(crate) fn planted_shift_m(&self) -> Option<Vec2> {
         self.planted.then_some(self.shift_m[0])
+    }
+
+    /// Distance of a planted foot from where the pose has it, m; a twist adds the way of the toes.
+    pub(crate) fn planted_off_m(&self) -> Option<f32> {
+        let off_m = self.shift_m[0].length() + TOES_M * self.twist_rad[0].abs();
+        self.planted.then_some(off_m)
     }
 
     /// Position of the ball of the drawn foot, m.
@@ -206,10 +220,10 @@ impl FootLock {
         rested_m.truncate() + along_m.truncate().normalize_or_zero() * along_m.length()
     }
 
-    /// Lets the shift decay to another, and the twist to none.
-    fn release(&mut self, away_m: Vec2, step: &TimeStep) {
-        step.lock_release.approach(&mut self.shift_m, away_m);
-        self.twist_rad = step.lock_release.decayed(self.twist_rad);
+    /// Lets the shift decay to another, and the twist to none, by a filter.
+    fn release(&mut self, away_m: Vec2, filter: &SoftSpring) {
+        filter.approach(&mut self.shift_m, away_m);
+        self.twist_rad = filter.decayed(self.twist_rad);
     }
 
     /// Moves the lift towards its target: a planted sole settles on the ground, a swinging one keeps its clearance. No
@@ -248,8 +262,9 @@ mod tests {
         let posed = PosedFoot { ankle_m: Vec3::new(0.0, 0.0, 0.07), sole_m };
         let (mut lock, step) = (FootLock { planted: true, ..FootLock::new(&posed) }, TimeStep::new(dt_s));
         let pivot_rad = dt_s * pivot_rate_rad_s(turn_rate_deg_s.to_radians());
+        let footing = Footing { planted: true, contact_ahead: 1.0, pivot_rad, ..Footing::default() };
         for _ in 0..(0.3 / dt_s).round() as usize {
-            let locked = lock.step(&posed, true, 1.0, Vec2::ZERO, pivot_rad, &step);
+            let locked = lock.step(&posed, &footing, &step);
             lock.record_drawn(sole_m.map(|point_m| locked.ankle_m + locked.twist * (point_m - posed.ankle_m)), &step);
         }
         let heading_m = lock.sole_m[1] - lock.sole_m[0];

@@ -3,7 +3,8 @@
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
 //! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_room`,
-//! `leg_clearance`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first step; `lean`
+//! `leg_clearance`, `settling_step`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first
+//! step; `lean`
 //! tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
 
 pub(crate) mod contact_state;
@@ -17,6 +18,7 @@ pub(crate) mod leg_clearance;
 pub(crate) mod leg_length;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
+pub(crate) mod settling_step;
 pub(crate) mod upper_body;
 pub(crate) mod weight_shift;
 
