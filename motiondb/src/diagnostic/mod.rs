@@ -4,14 +4,15 @@
 //! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position
 //! and the remedy. It does not name the clip: reports print the name before it.
 //!
-//! Read `note`, `warning` and `unfit`, the diagnostics of each severity, with their arguments `posture` and
-//! `held_part`.
+//! Read `note`, `warning` (with `warning_sentences`) and `unfit`, the diagnostics of each severity, with their arguments
+//! `posture` and `held_part`.
 
 mod held_part;
 mod note;
 mod posture;
 pub mod unfit;
 mod warning;
+mod warning_sentences;
 
 use std::fmt;
 

@@ -35,7 +35,6 @@ use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
 use crate::select::unlike_carriages::warn_of_unlike_carriages;
-use crate::styles::brief_rest::stand_briefly;
 use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
 use crate::styles::style_part::{StylePart, by_style};
@@ -120,7 +119,7 @@ fn unstyled_gaits(db: &MotionDb) -> BTreeSet<&str> {
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
 ///    of near-equal ones. Leave out clips that do not stand as their rig does, and judge frame rates (`checks`).
 /// 3. Divide the clips by style (`styles`); each style is compiled by itself up to step 9. Keep one clip of each set of
-///    duplicates ([`crate::dedup`]).
+///    duplicates ([`crate::dedup`]). A style that does not stand gets a brief rest, or the idle of the first style.
 /// 4. Cut the idles (`action`).
 /// 5. Drop doubtful cycles that clean ones reach, and windows that add nothing to the set ([`crate::select`]).
 /// 6. Close the standing cycles with the period of m_sp; name all.
@@ -179,9 +178,7 @@ fn database(
     let parts = by_style(clips, compared, analyzed).into_iter();
     let mut parts: Vec<StylePart> = parts.map(|part| part.without_duplicates(&body, &log)).collect();
     cache.into_iter().for_each(|cache| cache.close(&log));
-    parts.iter_mut().take(1).for_each(|first| stand_briefly(first, &body));
-    lend_idle(&mut parts);
-    parts.iter_mut().for_each(|part| stand_briefly(part, &body));
+    lend_idle(&mut parts, &body);
     let databases: Result<Vec<MotionDb>, CompileError> =
         parts.into_iter().map(|part| style_database(part, &body, &extra, options, observer)).collect();
     let db = joined(databases?).ok_or(CompileError::NoClips)?;

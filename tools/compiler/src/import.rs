@@ -8,7 +8,7 @@
 //! 4. metres, z up ([`crate::retarget::units`]); of a body that crawls, up as its rest pose stands
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses and no frozen
 //!    ends
-//! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`, `dropped_frames`)
+//! 6. checks of size, gait, ground and poses (`plausibility`, `level_ground`, `pose_jumps`, `uneven_frames`)
 //! 7. parts in which the body is not upright (`posture`) or stands in a bind pose (`spread_arms`), canonical humanoid
 //!    (`to_humanoid`), check of its body → `HumanClip`
 
@@ -20,7 +20,8 @@ use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
-use crate::checks::{dropped_frames, lengthwise_path, level_ground, plausibility, pose_jumps, spread_arms};
+use crate::checks::pose_jumps::PoseJump;
+use crate::checks::{lengthwise_path, level_ground, plausibility, pose_jumps, spread_arms, uneven_frames};
 use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::extra_joints::extra_search::extra_joints;
 use crate::input::clip_files::ClipFormat;
@@ -198,8 +199,8 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         return Err(RejectionReason::NoRotations);
     }
     if let Some(forward) = settings.forward {
-        let against_toes = stated_facing::apply(&clip, &mut roles, forward)?;
-        clip.diagnostics.extend(against_toes.map(Diagnostic::Warning));
+        let against_feet = stated_facing::apply(&clip, &mut roles, forward)?;
+        clip.diagnostics.extend(against_feet.map(Diagnostic::Warning));
     }
     if roles.are_names_mirrored {
         clip.diagnostics.push(Diagnostic::Warning(Warning::SidesExchanged));
@@ -227,19 +228,11 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         None
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let frames = dropped_frames::warning(&clip, &roles);
-    // Where frames are repeated, every other one jumps.
-    let repeats = matches!(frames, Some(Warning::FramesRepeated { .. }));
-    let jumps = if repeats { Vec::new() } else { pose_jumps::pose_jumps(&clip, &roles) };
-    let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
     let is_frame_time_wrong = matches!(unfit, Some(Unfit::InhumanGait { .. }));
     if is_frame_time_wrong {
         units::drop_doubt_of_cadence(&mut clip, &roles, units.metres_per_unit);
     }
-    // A leap is reported already. A wrong frame time leaves no speed by which a pose jumps.
-    let jump = pose_jumps::warning(&clip, &jumps).filter(|_| !leaps && !is_frame_time_wrong);
-    let frames = frames.filter(|_| !is_frame_time_wrong);
-    clip.diagnostics.extend(jump.into_iter().chain(frames).map(Diagnostic::Warning));
+    let jumps = jumps(&mut clip, &roles, is_frame_time_wrong);
     let low_parts = match contradicted_up {
         None => posture::low_parts(&clip, &roles, &parameters),
         Some(_) => Vec::new(),
@@ -260,6 +253,21 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
         Some(reason) => Err(settings.contradicted_unit(&reason).unwrap_or(reason)),
         None => Ok(human),
     }
+}
+
+/// The jumps of the pose. Warns of them, and of frames that are missing or repeated, unless the frame time is wrong: that
+/// leaves no speed by which they are judged.
+fn jumps(clip: &mut SourceClip, roles: &Roles, is_frame_time_wrong: bool) -> Vec<PoseJump> {
+    let uneven = uneven_frames::warning(clip, roles);
+    // Where frames are repeated, every other one jumps.
+    let repeats = matches!(uneven, Some(Warning::FramesRepeated { .. }));
+    let jumps = if repeats { Vec::new() } else { pose_jumps::pose_jumps(clip, roles) };
+    // A leap is reported already.
+    let leaps = clip.diagnostics.iter().any(|found| matches!(found, Diagnostic::Warning(Warning::Leap { .. })));
+    let jump = pose_jumps::warning(clip, &jumps).filter(|_| !leaps);
+    let warnings = jump.into_iter().chain(uneven).filter(|_| !is_frame_time_wrong);
+    clip.diagnostics.extend(warnings.map(Diagnostic::Warning));
+    jumps
 }
 
 /// What the settings of a clip state about its part in the set.

@@ -83,15 +83,10 @@ impl Body {
         let mut contacts_ahead = contacts_ahead(&active, motion, context);
         let stands = command.step_state.stands && motion.mode == Mode::Blending;
         contact.settling.follow(stands, &contact.locks, step.dt_s);
-        let settling = contact.settling.swing();
-        if let Some((side, left_s)) = settling {
-            posture.contacts[side] = 0.0;
-            contacts_ahead[side] = if left_s > LANDING_AHEAD_S { 0.0 } else { 1.0 };
-        }
+        contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
         let feet = FootMotion {
             planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
             contacts_ahead,
-            settles: settling.is_some(),
             turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
             is_new: motion.has_jumped,
         };
@@ -104,7 +99,7 @@ impl Body {
         let (posture, soles_m) = in_root_frame(posture, soles_m, &frame, &root.frame());
         let mut output =
             output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context);
-        if let (Some(foot), Some((_, left_s))) = (&mut output.stance.foot, settling) {
+        if let (Some(foot), Some((_, left_s))) = (&mut output.stance.foot, contact.settling.swing()) {
             foot.time_to_landing_s = left_s;
         }
         output

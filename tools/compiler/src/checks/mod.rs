@@ -5,12 +5,10 @@
 //! reasons of rejection, all typed.
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet;
-//! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `dropped_frames` whether frames are
-//! missing; `spread_arms` where it
-//! stands as in a bind pose. Of a set, `other_up_axes` finds the clips that do not stand as their rig does, `rare_frame_rates`
-//! those with a doubtful frame rate.
+//! `lengthwise_path` whether it moves along its own length; `pose_jumps` where its pose jumps; `uneven_frames` whether frames
+//! are missing or repeated; `spread_arms` where it stands as in a bind pose. Of a set, `other_up_axes` finds the clips that do
+//! not stand as their rig does, `rare_frame_rates` those with a doubtful frame rate.
 
-pub(crate) mod dropped_frames;
 pub(crate) mod lengthwise_path;
 pub(crate) mod level_ground;
 pub(crate) mod other_up_axes;
@@ -18,3 +16,4 @@ pub(crate) mod plausibility;
 pub(crate) mod pose_jumps;
 pub(crate) mod rare_frame_rates;
 pub(crate) mod spread_arms;
+pub(crate) mod uneven_frames;

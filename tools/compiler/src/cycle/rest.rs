@@ -5,7 +5,6 @@
 
 use std::ops::Range;
 
-use motiondb::body::Joint;
 use motiondb::diagnostic::Unfit;
 use motiondb::statistics::mean;
 
@@ -82,8 +81,8 @@ impl Rest {
 
 /// Mean height of the hips over the ankles, m.
 fn hips_over_ankles_m(joints: &HumanJoints) -> f64 {
-    let height_m = |side: usize| joints.position_m(Joint::THIGHS[side]).z - joints.position_m(Joint::FEET[side]).z;
-    0.5 * (height_m(0) + height_m(1))
+    let [left_m, right_m] = joints.hip_heights_m();
+    0.5 * (left_m + right_m)
 }
 
 /// Height of the wrists over the shoulders, arm lengths, plus 1; mean of both arms.

@@ -55,15 +55,15 @@ pub enum CompileError {
         /// Clips of human motion, each with its diagnostics.
         sources: Vec<SourceRecord>,
     },
-    /// The clip that was chosen as the base walk has no steps.
+    /// The clip that was chosen as the base walk does not walk ahead.
     #[error(
-        "`{name}`: no stepping cycle found; this clip cannot be the base walk (m_sp). Choose another with \
+        "`{name}`: no walk straight ahead found; this clip cannot be the base walk (m_sp). Choose another with \
          `semi_procedural = \"…\"`"
     )]
     NotStepping {
         /// Name of the clip.
         name: String,
-        /// Names of the clip's examples that step. Not empty where the choice named another window of the clip.
+        /// Names of the clip's examples that walk ahead. Not empty where the choice named another window of the clip.
         stepping: Vec<String>,
     },
     /// A clip does not show the transition that a manifest states.

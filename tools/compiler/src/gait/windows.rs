@@ -97,11 +97,8 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Ra
     });
     let rests = rests_of(&planted, &track, clip.loop_frames(), standing::REST_MIN_S);
     let windows = gait_windows(&planted, &steps, &rests, &track, clip.loop_frames());
-    let brief_rests = match &rests {
-        Some(_) => Vec::new(),
-        None => rests_of(&planted, &track, clip.loop_frames(), standing::STANDING_MIN_S)
-            .map_or_else(Vec::new, |(_, rests)| rests),
-    };
+    let brief = || rests_of(&planted, &track, clip.loop_frames(), standing::STANDING_MIN_S);
+    let brief_rests = rests.is_none().then(brief).flatten().map_or_else(Vec::new, |(_, rests)| rests);
     let rests = rests.map_or_else(Vec::new, |(_, rests)| rests);
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let frames = searched_frames(track.frame_count(), clip.loop_frames());

@@ -272,4 +272,9 @@ impl HumanJoints {
     pub fn hips_m(&self) -> DVec3 {
         0.5 * (self.positions_m[Joint::THIGHS[0].index()] + self.positions_m[Joint::THIGHS[1].index()])
     }
+
+    /// Height of each hip over its ankle, `[left, right]`, m.
+    pub(crate) fn hip_heights_m(&self) -> [f64; 2] {
+        [0, 1].map(|side| self.position_m(Joint::THIGHS[side]).z - self.position_m(Joint::FEET[side]).z)
+    }
 }

@@ -1,7 +1,6 @@
 //! Posture penalty of a gait: bent legs, a bent trunk, a raised arm, arms that carry, a limp. It is a speed, m/s, so that
 //! it can be weighed against the speed of another gait.
 
-use motiondb::body::Joint;
 use motiondb::statistics::mean;
 
 use crate::cycle::gait_cycle::GaitCycle;
@@ -57,6 +56,6 @@ pub(crate) fn posture_flaws(cycle: &GaitCycle, body: &HumanBody) -> f64 {
 
 /// Height of the hips over the ankle of the straighter leg, m.
 fn straighter_leg_m(joints: &HumanJoints) -> f64 {
-    let height_m = |side: usize| joints.position_m(Joint::THIGHS[side]).z - joints.position_m(Joint::FEET[side]).z;
-    height_m(0).max(height_m(1))
+    let [left_m, right_m] = joints.hip_heights_m();
+    left_m.max(right_m)
 }

@@ -16,7 +16,8 @@ use crate::cycle::gait_cycle::GaitCycle;
 use crate::cycle::standing_cycle::standing_cycle;
 use crate::cycle::steady_cycle::SteadyMotion;
 use crate::ground::root_arc::Rates;
-use crate::retarget::human_clip::HumanBody;
+use crate::retarget::human_clip::{HumanBody, HumanJoints};
+use crate::rig::carriage::Carriage;
 
 /// Least number of walks that show what is usual.
 const WALKS_MIN: usize = 4;
@@ -26,15 +27,15 @@ const WALKS_MPS: Range<f64> = 0.3..2.0;
 const ASIDE_MAX_MPS: f64 = 0.3;
 /// Greatest turn rate, rad/s: the head turns into sharp curves.
 const TURN_MAX_RAD_S: f64 = 0.8;
-/// Directions that are compared, with their part and the least angle from the usual that is reported, degrees: from each
-/// shoulder to its elbow and from there to the wrist, where the head faces, and from the pelvis to the neck.
+/// Directions that are compared, with their part and the least angle from the usual that is reported, degrees: those of
+/// [`Carriage`], and where the head faces.
 const PARTS: [(HeldPart, f64); 6] = [
     (HeldPart::LeftArm, 40.0),
-    (HeldPart::LeftArm, 55.0),
     (HeldPart::RightArm, 40.0),
+    (HeldPart::LeftArm, 55.0),
     (HeldPart::RightArm, 55.0),
-    (HeldPart::Head, 35.0),
     (HeldPart::Trunk, 20.0),
+    (HeldPart::Head, 35.0),
 ];
 /// Period in which a body that stands is measured, s.
 const STANDING_S: f64 = 1.0;
@@ -124,21 +125,10 @@ fn walks(cycle: &GaitCycle) -> bool {
 
 /// Mean directions over a cycle, in the order of [`PARTS`].
 fn part_directions(cycle: &GaitCycle, body: &HumanBody) -> [Vec3; COUNT] {
-    let joints = cycle.joints(body);
-    let mean_of = |from: Joint, to: Joint| {
-        let directions =
-            joints.iter().map(|joints| (joints.position_m(to) - joints.position_m(from)).normalize_or_zero());
-        directions.sum::<DVec3>().as_vec3()
-    };
-    let head = joints.iter().map(|joints| joints.orientations[Joint::Head.index()] * DVec3::X).sum::<DVec3>().as_vec3();
-    [
-        mean_of(Joint::LeftUpperArm, Joint::LeftForearm),
-        mean_of(Joint::LeftForearm, Joint::LeftHand),
-        mean_of(Joint::RightUpperArm, Joint::RightForearm),
-        mean_of(Joint::RightForearm, Joint::RightHand),
-        head,
-        mean_of(Joint::Pelvis, Joint::Neck),
-    ]
+    let Carriage { arms: [left_upper, right_upper, left_fore, right_fore], trunk } = cycle.carriage(body);
+    let faces = |joints: HumanJoints| joints.orientations[Joint::Head.index()] * DVec3::X;
+    let head = cycle.joints(body).into_iter().map(faces).sum::<DVec3>().as_vec3();
+    [left_upper, right_upper, left_fore, right_fore, trunk, head]
 }
 
 #[cfg(test)]

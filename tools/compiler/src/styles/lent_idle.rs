@@ -1,17 +1,23 @@
 //! A style without an idle stands as the first style does: the clip of the first style that stands best is added to it,
-//! without its strides and transitions.
+//! without its strides and transitions. The first style, and if it does not stand each, stands as in a brief rest of its
+//! own.
 
 use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::cycle::analyzed_clip::{AnalyzedClip, LeftOutWindows};
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
-use crate::retarget::human_clip::HumanClip;
+use crate::retarget::human_clip::{HumanBody, HumanClip};
+use crate::styles::brief_rest::stand_briefly;
 use crate::styles::style_part::StylePart;
 
 /// Adds the best standing clip of the first part to every part in which no clip stands.
-pub(crate) fn lend_idle(parts: &mut [StylePart]) {
+pub(crate) fn lend_idle(parts: &mut [StylePart], body: &HumanBody) {
     let Some((lender, others)) = parts.split_first_mut() else { return };
-    let Some(at) = lender.best_standing() else { return };
+    stand_briefly(lender, body);
+    let Some(at) = lender.best_standing() else {
+        others.iter_mut().for_each(|part| stand_briefly(part, body));
+        return;
+    };
     for part in others.iter_mut().filter(|part| !part.stands()) {
         let note = Note::IdleOfOtherStyle { style: part.style.clone(), lender: lender.style.clone() };
         let position = part.indices.partition_point(|index| *index < lender.indices[at]);

@@ -176,8 +176,8 @@ impl MotionState {
     }
 
     /// Advances the phase over one step, at a factor on its rate, while the motion moves toward a target; the pace and
-    /// the lead of the steps follow. `stops` states whether the body stops where
-    /// its swinging foot lands.
+    /// the lead of the steps follow. `stops` states whether the body stops where its swinging foot
+    /// lands.
     pub(crate) fn take_steps(
         &mut self,
         root: &Root,

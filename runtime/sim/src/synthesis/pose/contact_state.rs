@@ -46,6 +46,7 @@ impl ContactState {
         step: &TimeStep,
     ) {
         let (soles_m, pivot_rad) = (posture.soles_m(skeleton), step.dt_s * pivot_rate_rad_s(motion.turn_rate_rad_s));
+        let settles = self.settling.swing().is_some();
         // The stance foot first: the other one avoids it.
         let first = usize::from(!self.locks[0].planted());
         let (mut locked, mut held) = (posture.feet, [false; 2]);
@@ -66,7 +67,7 @@ impl ContactState {
             };
             let away_m = frame.forward.rotate(into_room_m + past_stance_m);
             let (planted, contact_ahead) = (motion.planted[side], motion.contacts_ahead[side]);
-            let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles: motion.settles };
+            let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles };
             let lock = self.locks[side].step(&posed, &footing, step);
             held[side] = lock.is_held;
             locked[side] =
@@ -90,8 +91,6 @@ pub(crate) struct FootMotion {
     pub(crate) planted: [bool; 2],
     /// Contact of each foot [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
     pub(crate) contacts_ahead: [f32; 2],
-    /// Whether a foot makes a settling step.
-    pub(crate) settles: bool,
     /// Turn rate of the body, rad/s.
     pub(crate) turn_rate_rad_s: f32,
     /// Whether this is the first step after a switch.

@@ -3,9 +3,8 @@
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
 //! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_room`,
-//! `leg_clearance`, `settling_step`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a first
-//! step; `lean`
-//! tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
+//! `leg_clearance`, `settling_step`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a
+//! first step; `lean` tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
 
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;

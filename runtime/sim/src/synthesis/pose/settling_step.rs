@@ -6,6 +6,7 @@
 //! Metres, radians, seconds; sides are 0 left, 1 right.
 
 use crate::synthesis::pose::FootLock;
+use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 
 /// Distance of a foot from its place in standing beyond which it steps, m.
 const OFF_MAX_M: f32 = 0.07;
@@ -27,6 +28,14 @@ impl SettlingStep {
             None if stands => foot_off(locks).map(|side| (side, DURATION_S)),
             None => None,
         };
+    }
+
+    /// Lifts the foot in the air, given the contact of each foot, now and [`LANDING_AHEAD_S`] later.
+    pub(crate) fn lift(&self, contacts: &mut [f32; 2], contacts_ahead: &mut [f32; 2]) {
+        if let Some((side, left_s)) = self.swing {
+            contacts[side] = 0.0;
+            contacts_ahead[side] = if left_s > LANDING_AHEAD_S { 0.0 } else { 1.0 };
+        }
     }
 
     /// The foot in the air, and the time until it lands, s.
