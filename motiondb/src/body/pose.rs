@@ -94,6 +94,13 @@ impl Joints {
 }
 
 impl Pose {
+    /// The pose between two poses whose rotations share a hemisphere; `share` is 0 at this pose and 1 at the other.
+    pub fn lerp(&self, other: &Self, share: f32) -> Self {
+        let rotation =
+            |joint: usize| (self.rotations[joint] * (1.0 - share) + other.rotations[joint] * share).normalize();
+        Self { pelvis_m: self.pelvis_m.lerp(other.pelvis_m, share), rotations: std::array::from_fn(rotation) }
+    }
+
     /// Positions and orientations of all joints in the root frame.
     ///
     /// ```

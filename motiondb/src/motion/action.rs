@@ -6,8 +6,6 @@
 //! root is free of the oscillation of the steps. It begins and ends at the velocity of the example at that end, so that
 //! no velocity jumps where an action meets a cycle. Metres, seconds, radians.
 
-use std::array;
-
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -136,11 +134,9 @@ impl Action {
 impl ActionFrame {
     /// The motion between two frames of one action; `share` is 0 at this frame and 1 at the other.
     fn lerp(&self, other: &Self, share: f32) -> Self {
-        let (from, to) = (&self.pose, &other.pose);
-        let rotation = |joint: usize| (from.rotations[joint] * (1.0 - share) + to.rotations[joint] * share).normalize();
         let between = |from: f32, to: f32| from + share * (to - from);
         Self {
-            pose: Pose { pelvis_m: from.pelvis_m.lerp(to.pelvis_m, share), rotations: array::from_fn(rotation) },
+            pose: self.pose.lerp(&other.pose, share),
             contacts: [0, 1].map(|side| between(self.contacts[side], other.contacts[side])),
             root: Root {
                 position_m: self.root.position_m.lerp(other.root.position_m, share),

@@ -129,9 +129,16 @@ impl Agents {
 
     /// Appends an agent that stands at its start, with its cycle at a phase of its own, so that a crowd does not march
     /// in step. Its id must be greater than all others.
-    pub fn push(&mut self, id: AgentId, spec: &AgentSpec, scenario: &Scenario, context: &SynthesisContext) {
+    pub fn push(
+        &mut self,
+        id: AgentId,
+        spec: &AgentSpec,
+        stature: f32,
+        scenario: &Scenario,
+        context: &SynthesisContext,
+    ) {
         let root = Root { position_m: spec.position_m, facing_rad: spec.facing_rad };
-        let stature = Stature::new(spec.stature);
+        let stature = Stature::new(stature);
         let (body, output) = standing(id, root, stature, scenario, context);
         let mut frame = AgentFrame { id, ..AgentFrame::default() };
         frame.show(&output);

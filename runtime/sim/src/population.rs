@@ -7,7 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::behaviour::SignalOrder;
-use crate::scenario::{AgentSpec, Scenario};
+use crate::scenario::agent_spec::is_of_skeleton;
+use crate::scenario::{AgentSpec, Coupling, Scenario};
 
 /// The id of an agent: the number of agents that were born before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -65,7 +66,7 @@ pub struct RadiusChange {
 }
 
 impl AgentLife {
-    /// A life that begins in a frame, with the database of its style and the plain body.
+    /// A life that begins in a frame, with the database of its style and the plain body, of the stated size.
     pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
         Self {
             group: spec.group.map(|group| group.first),
@@ -115,6 +116,15 @@ pub(crate) fn reaction_s(scenario: &Scenario, index: usize) -> f32 {
     let (Some(spec), Some(variation)) = (scenario.agents.get(index), scenario.variation) else { return 0.0 };
     let first = spec.group.map_or(index as u32, |group| group.first);
     variation.drawn_reaction_s(scenario.seed, first)
+}
+
+/// Size of an agent's body, relative to the database's skeleton: what the scenario states, otherwise drawn by the agent's
+/// id.
+pub(crate) fn drawn_stature(scenario: &Scenario, id: AgentId, spec: &AgentSpec) -> f32 {
+    // Without two-way coupling bodies move and look as in the clips.
+    let variation =
+        scenario.variation.filter(|_| scenario.coupling == Coupling::TwoWay && is_of_skeleton(&spec.stature));
+    variation.map_or(spec.stature, |variation| variation.drawn_stature(scenario.seed, id.0))
 }
 
 /// What a source did.
@@ -199,7 +209,9 @@ impl Population {
     pub fn of(scenario: &Scenario) -> Self {
         let life = |(index, spec): (usize, &AgentSpec)| {
             let character = scenario.character_of(index as u32, spec);
-            AgentLife { character, reaction_s: reaction_s(scenario, index), ..AgentLife::new(spec.clone(), None, 0) }
+            let stature = drawn_stature(scenario, index.into(), spec);
+            let reaction_s = reaction_s(scenario, index);
+            AgentLife { character, reaction_s, stature, ..AgentLife::new(spec.clone(), None, 0) }
         };
         let door = |is_closed_at_start| DoorPhases { is_closed_at_start, changes: Vec::new() };
         Self {

@@ -31,7 +31,7 @@ use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
-use crate::population::Population;
+use crate::population::{Population, drawn_stature};
 use crate::recording::frame::AgentFrame;
 use crate::recording::frame_packing::recorded_offset_rad;
 use crate::route::braking::Braking;
@@ -131,7 +131,8 @@ impl Simulation {
         let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
         for (index, spec) in scenario.agents.iter().enumerate() {
             Self::add_behaviour(&mut crowd, scenario, spec);
-            agents.push(index.into(), spec, scenario, context_of(&contexts, spec.style));
+            let (id, context) = (index.into(), context_of(&contexts, spec.style));
+            agents.push(id, spec, drawn_stature(scenario, id, spec), scenario, context);
         }
         let (routes, route_error) = match DoorRoutes::new(scenario) {
             Ok(routes) => (routes, None),

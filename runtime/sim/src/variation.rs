@@ -35,6 +35,8 @@ pub struct Variation {
     pub head_pitch_deg: f32,
     /// Small motion of head, forearms and hands in walks, divided by that of captures, where the clips lack it.
     pub secondary_motion: f32,
+    /// Deviation of the size of bodies of the skeleton's size, as a share. Speed and radius stay.
+    pub stature: f32,
 }
 
 impl Default for Variation {
@@ -47,6 +49,7 @@ impl Default for Variation {
             trunk_pitch_deg: 2.0,
             head_pitch_deg: 4.0,
             secondary_motion: 1.0,
+            stature: 0.05,
         }
     }
 }
@@ -62,16 +65,13 @@ enum Purpose {
     TrunkPitch,
     HeadPitch,
     SecondaryMotion,
+    Stature,
 }
 
 impl Variation {
     /// The traits of an agent, by its id.
     pub fn traits(&self, seed: u64, agent: u32) -> Traits {
-        let deviating = |deviation: f32, purpose: Purpose| {
-            let limit = DEVIATIONS_MAX * deviation;
-            let normal = Distribution::Normal { mean: 0.0, deviation, min: -limit, max: limit };
-            normal.draw(&mut random(seed, agent, purpose))
-        };
+        let deviating = |deviation: f32, purpose: Purpose| deviation_of(deviation, seed, agent, purpose);
         let arm_swing = 1.0 + deviating(self.arm_swing, Purpose::ArmSwing);
         let asymmetry = deviating(self.arm_asymmetry, Purpose::ArmAsymmetry);
         let prefers_left = random(seed, agent, Purpose::FirstFoot).unit() < 0.5;
@@ -86,11 +86,23 @@ impl Variation {
         }
     }
 
+    /// Size of the body of an agent, by its id, relative to the database's skeleton.
+    pub fn drawn_stature(&self, seed: u64, agent: u32) -> f32 {
+        1.0 + deviation_of(self.stature, seed, agent, Purpose::Stature)
+    }
+
     /// Reaction time of an agent, by its id, s.
     pub fn drawn_reaction_s(&self, seed: u64, agent: u32) -> f32 {
         let [from, to] = self.reaction_s;
         Distribution::Uniform { from, to }.draw(&mut random(seed, agent, Purpose::Reaction))
     }
+}
+
+/// A number about 0 with a standard deviation.
+fn deviation_of(deviation: f32, seed: u64, agent: u32, purpose: Purpose) -> f32 {
+    let limit = DEVIATIONS_MAX * deviation;
+    let normal = Distribution::Normal { mean: 0.0, deviation, min: -limit, max: limit };
+    normal.draw(&mut random(seed, agent, purpose))
 }
 
 fn random(seed: u64, agent: u32, purpose: Purpose) -> SplitMix64 {
@@ -121,6 +133,16 @@ mod tests {
         let [mean, deviation, least, greatest] = moments(|traits| traits.cadence);
         assert!((mean - 1.0).abs() < 2e-3 && (deviation - 0.048).abs() < 2e-3, "{mean} {deviation}");
         assert!(least >= 0.88 && greatest <= 1.12 && greatest - least > 0.23, "{least} {greatest}");
+    }
+
+    #[test]
+    fn adults_of_175_cm_differ_by_9_cm() {
+        let heights_m = (0..20_000).map(|id| 1.75 * Variation::default().drawn_stature(7, id));
+        let [least, greatest] = heights_m
+            .clone()
+            .fold([f32::MAX, f32::MIN], |[least, greatest], height_m| [least.min(height_m), greatest.max(height_m)]);
+        let variance = heights_m.map(|height_m| (height_m - 1.75) * (height_m - 1.75)).sum::<f32>() / 20_000.0;
+        assert!((variance.sqrt() - 0.0836).abs() < 2e-3 && least > 1.53 && greatest < 1.97, "{least} {greatest} m");
     }
 
     #[test]

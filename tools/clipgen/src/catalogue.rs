@@ -4,6 +4,7 @@
 //! humans.
 
 use crate::body::ClipPose;
+use crate::motion::idle::{self, StandingPlan};
 use crate::motion::{Playback, idle_frames, stepping_frames};
 use crate::plan::{FRAME_RATE_HZ, GaitPlan, RootMotion, StrideVariation, gaits};
 
@@ -22,7 +23,7 @@ pub(crate) struct PlannedClip {
 #[derive(Clone, Debug)]
 pub(crate) enum ClipRecipe {
     /// Standing.
-    Idle,
+    Idle(StandingPlan),
     /// Strides of a gait.
     Steps {
         /// Plan of the gait; of a reversed clip that of the forward gait.
@@ -48,6 +49,10 @@ enum GaitFamily {
 /// Name, family, (v_f m/s, ω_t °/s, ω_s m/s), frames, strides. Frames over strides leave a remainder of one, so that
 /// strides are sampled at different moments (see [`gaits`]).
 type CatalogueRow = (&'static str, GaitFamily, (f64, f64, f64), usize, usize);
+
+/// Every clip that stands.
+const IDLES: [(&str, StandingPlan); 3] =
+    [("idle", idle::EVEN), ("idle_on_left_leg", idle::ON_LEFT), ("idle_on_right_leg", idle::ON_RIGHT)];
 
 /// Every clip that steps.
 const ROWS: &[CatalogueRow] = &[
@@ -91,7 +96,12 @@ const SKINNED: [&str; 7] = [
 /// Every clip, in the order of the README.
 pub(crate) fn planned_clips() -> Vec<PlannedClip> {
     let still = RootMotion { speed_mps: 0.0, turn_rate_rad_s: 0.0, strafe_mps: 0.0 };
-    let mut clips = vec![PlannedClip { name: "idle", motion: still, recipe: ClipRecipe::Idle }];
+    let idle = |&(name, plan): &(&'static str, StandingPlan)| PlannedClip {
+        name,
+        motion: still,
+        recipe: ClipRecipe::Idle(plan),
+    };
+    let mut clips: Vec<_> = IDLES.iter().map(idle).collect();
     clips.extend(ROWS.iter().map(planned_clip));
     clips
 }
@@ -126,7 +136,7 @@ impl PlannedClip {
     /// The frames of the clip.
     pub(crate) fn poses(&self) -> Vec<ClipPose> {
         match &self.recipe {
-            ClipRecipe::Idle => idle_frames(),
+            ClipRecipe::Idle(plan) => idle_frames(self.name, plan),
             ClipRecipe::Steps { gait, strides, playback } => {
                 stepping_frames(gait, *playback, &StrideVariation::of_clip(self.name, *strides))
             }

@@ -125,7 +125,7 @@ fn planted_feet_stand_still_as_long_as_human_ones() {
         for side in 0..2 {
             let (slide_cm_s, share) = slide_and_share(frames, side, clip.motion.pace_mps());
             let (slide_bar, shares) = match (&clip.recipe, is_running(clip)) {
-                (ClipRecipe::Idle, _) => (0.1, 1.0..=1.0),
+                (ClipRecipe::Idle(_), _) => (0.1, 1.0..=1.0),
                 (_, true) => (3.0, 0.28..=0.45),
                 (_, false) if clip.motion.pace_mps() < SLOW_MPS => (1.0, 0.45..=SLOW_SHARE_MAX),
                 (_, false) => (1.0, 0.45..=0.65),
@@ -158,6 +158,22 @@ fn knees_stay_within_the_human_range() {
 }
 
 #[test]
+fn the_leg_that_bears_the_weight_is_straight_under_the_higher_hip() {
+    for (name, bearing) in [("idle_on_left_leg", 0), ("idle_on_right_leg", 1)] {
+        let clips = planned_clips();
+        let clip = clips.iter().find(|clip| clip.name == name).unwrap();
+        for joints in &frames(clip) {
+            let knees_deg = [bearing, 1 - bearing].map(|side| knee_flexion_deg(joints, side));
+            assert!(knees_deg[0] < 8.0 && knees_deg[1] > 14.0, "{name}: {knees_deg:?}");
+            let [hips_m, ankles_m] = [THIGHS, FEET].map(|pair| [bearing, 1 - bearing].map(|side| joints[pair[side]]));
+            assert!(hips_m[0].z > hips_m[1].z + 0.004, "{name}: {hips_m:?}");
+            let to_ankles_m = ankles_m.map(|ankle_m| (ankle_m.y - 0.5 * (hips_m[0].y + hips_m[1].y)).abs());
+            assert!(to_ankles_m[0] < 0.6 * to_ankles_m[1], "{name}: {to_ankles_m:?}");
+        }
+    }
+}
+
+#[test]
 fn the_last_frame_is_the_first_one_moved_on() {
     check_each(|clip, frames| {
         let (first, last) = (frames[0], frames[frames.len() - 1]);
@@ -168,7 +184,8 @@ fn the_last_frame_is_the_first_one_moved_on() {
             let expected = DVec2::new(cos, sin).rotate(from.truncate()).extend(from.z);
             within(clip.name, expected.distance(to), 0.0..=1e-6)?;
         }
-        within("duration", (frames.len() - 1) as f64 / FRAME_RATE_HZ, 1.0..=6.0)
+        let durations_s = if matches!(clip.recipe, ClipRecipe::Idle(_)) { 11.0..=15.0 } else { 1.0..=6.0 };
+        within("duration", (frames.len() - 1) as f64 / FRAME_RATE_HZ, durations_s)
     });
 }
 

@@ -34,6 +34,7 @@ use crate::select::clean_cycles::without_reached_doubtful;
 use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
+use crate::select::one_standing::one_standing;
 use crate::select::unlike_carriages::warn_of_unlike_carriages;
 use crate::styles::joined_styles::joined;
 use crate::styles::lent_idle::lend_idle;
@@ -122,7 +123,8 @@ fn unstyled_gaits(db: &MotionDb) -> BTreeSet<&str> {
 ///    duplicates ([`crate::dedup`]). A style that does not stand gets a brief rest, or the idle of the first style.
 /// 4. Cut the idles (`action`).
 /// 5. Drop doubtful cycles that clean ones reach, and windows that add nothing to the set ([`crate::select`]).
-/// 6. Close the standing cycles with the period of m_sp; name all.
+/// 6. Close the standing cycles with the period of m_sp; name all. Of several that stand keep the best: the others are
+///    idles alone.
 /// 7. Limit the number of examples, add mirrors, sort by name.
 /// 8. Join the idles to the standing example; find the transitions and join them to the examples (`transition`).
 /// 9. Assemble parameters, blend space, velocity sets, rows, extra joints ([`crate::extra_joints`]) and correspondence
@@ -198,7 +200,7 @@ fn style_database(
     let clean = if options.keep_doubtful { analyzed } else { without_reached_doubtful(&clips, analyzed) };
     let mut adding = windows_that_add(clean);
     warn_of_unlike_carriages(&mut adding, body);
-    let named = named_cycles(&clips, &adding, body)?;
+    let named = one_standing(named_cycles(&clips, &adding, body)?, &cut, body);
     let mut selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let idles = joined_idles(cut, &selected.cycles, body);
     observer(CompileEvent::Stage("transitions"));

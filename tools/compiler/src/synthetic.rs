@@ -114,6 +114,16 @@ pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
     clip(name, body, poses, 60.0)
 }
 
+/// A body that stands and sways with a period, s.
+pub(crate) fn swaying(name: &str, duration_s: f64, period_s: f64) -> HumanClip {
+    let mut clip = idle(name, duration_s);
+    for (frame, pose) in clip.frames.iter_mut().enumerate() {
+        let angle_rad = 0.03 * libm::sin(TAU * frame as f64 / (60.0 * period_s));
+        pose.rotations[Joint::SpineMiddle.index()] = DQuat::from_rotation_x(angle_rad);
+    }
+    clip
+}
+
 /// A body on a given path of the root (position, m, and facing, rad, by time, s), 60 frames per second. Each foot stands
 /// on the print that the root has at the middle of each of its stances, `[left, right]`, s; it swings for 0.4 s half-way
 /// between two of them.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::camera::colour_by::dressed;
 use crate::camera::worn::{Wardrobe, Wearer};
-use crate::figure::{Figures, Wanted};
+use crate::figure::{BodySize, Figures, Wanted};
 use crate::passes::motion::PartPlaces;
 use crate::raster::palette::{Rgb, decode_srgb};
 use crate::visibility::lens::NEAR_M;
@@ -67,11 +67,11 @@ impl Dresser<'_> {
     pub(crate) fn mesh_size(&self, agents: &[AgentFrame], lens: &Lens, hidden: Option<u32>) -> MeshSize {
         let seen = agents.iter().filter(|agent| Some(agent.id.0) != hidden && is_near_picture(lens, agent));
         let size = |agent: &AgentFrame| {
-            let stature = self.stature(agent);
-            let height_px = stature * height_px(lens, agent);
+            let size = self.size(agent);
+            let height_px = size.stature * height_px(lens, agent);
             match self.character_of(agent) {
                 Some((wardrobe, character)) => wardrobe.mesh_size(character, HEIGHT_M / height_px),
-                None => self.figures.mesh_size(&Wanted { agent, look: dressed(agent, None), stature, height_px }),
+                None => self.figures.mesh_size(&Wanted { agent, look: dressed(agent, None), size, height_px }),
             }
         };
         seen.map(size).sum()
@@ -105,10 +105,10 @@ impl Dresser<'_> {
             for at in first..(first + AGENTS_AT_ONCE).min(seen.agents.len()) {
                 let agent = &seen.agents[at];
                 if Some(agent.id.0) != seen.hidden && is_near_picture(seen.lens, agent) {
-                    let (stature, first_triangle) = (self.stature(agent), parts.meshes.triangles.len());
-                    let height_px = stature * height_px(seen.lens, agent);
-                    self.append_sized(&mut parts, &seen.posed[at], stature, height_px, shown(at));
-                    if is_near_eye(seen.lens, agent, stature) {
+                    let (size, first_triangle) = (self.size(agent), parts.meshes.triangles.len());
+                    let height_px = size.stature * height_px(seen.lens, agent);
+                    self.append_sized(&mut parts, &seen.posed[at], size, height_px, shown(at));
+                    if is_near_eye(seen.lens, agent, size.stature) {
                         parts.meshes.open(first_triangle);
                     }
                 }
@@ -122,9 +122,13 @@ impl Dresser<'_> {
         }
     }
 
-    /// Size of an agent relative to the crowd's body.
-    fn stature(&self, agent: &AgentFrame) -> f32 {
-        self.population.agents.get(agent.id.index()).map_or(1.0, |life| life.stature)
+    /// Size of an agent's body.
+    fn size(&self, agent: &AgentFrame) -> BodySize {
+        let life = self.population.agents.get(agent.id.index());
+        life.map_or(BodySize { stature: 1.0, deviation: 1.0 }, |life| BodySize {
+            stature: life.stature,
+            deviation: life.stature / life.spec.stature,
+        })
     }
 
     /// Appends an agent, and scales it about its root on the ground.
@@ -132,12 +136,13 @@ impl Dresser<'_> {
         &self,
         parts: &mut SceneParts,
         agent: &AgentFrame,
-        stature: f32,
+        size: BodySize,
         height_px: f32,
         shown: Option<Rgb>,
     ) {
         let [cones, occluders, vertices] = [parts.cones.len(), parts.occluders.len(), parts.meshes.positions_m.len()];
-        self.append(parts, agent, stature, height_px, shown);
+        self.append(parts, agent, size, height_px, shown);
+        let stature = size.stature;
         if stature == 1.0 {
             return;
         }
@@ -150,7 +155,7 @@ impl Dresser<'_> {
         parts.meshes.positions_m[vertices..].iter_mut().for_each(|point_m| *point_m = scaled(*point_m));
     }
 
-    fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, stature: f32, height_px: f32, shown: Option<Rgb>) {
+    fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, size: BodySize, height_px: f32, shown: Option<Rgb>) {
         match self.character_of(agent) {
             Some((wardrobe, character)) => {
                 let shown = shown.map(|rgb| rgb.map(decode_srgb).clamp(Vec3::ZERO, Vec3::ONE));
@@ -159,7 +164,7 @@ impl Dresser<'_> {
             }
             None => {
                 let look = dressed(agent, shown);
-                self.figures.append(parts, &Wanted { agent, look, stature, height_px });
+                self.figures.append(parts, &Wanted { agent, look, size, height_px });
             }
         }
     }

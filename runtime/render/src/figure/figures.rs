@@ -6,7 +6,7 @@ use motiondb::body::{Joint, Side, Skeleton};
 
 use crate::figure::build::{Build, Fineness, rest_positions};
 use crate::figure::cone_figure::ConeFigure;
-use crate::figure::style::{Age, Clothes, HairStyle, Sex, Style};
+use crate::figure::style::{Age, BodySize, Clothes, HairStyle, Sex, Style};
 use crate::figure::template::{PosedJoint, Template};
 use crate::raster::palette::Look;
 use crate::visibility::{MeshSize, Owner, SceneParts};
@@ -117,8 +117,8 @@ pub(crate) struct Figures {
 pub(crate) struct Wanted<'a> {
     pub(crate) agent: &'a AgentFrame,
     pub(crate) look: Look,
-    /// Size relative to the crowd's body.
-    pub(crate) stature: f32,
+    /// Size of the body.
+    pub(crate) size: BodySize,
     /// Height in the picture, pixels.
     pub(crate) height_px: f32,
 }
@@ -137,9 +137,9 @@ impl Figures {
 
     /// Appends the parts of one agent's body, as large as the crowd's.
     pub(crate) fn append(&self, parts: &mut SceneParts, wanted: &Wanted) {
-        let Wanted { agent, look, stature, height_px } = wanted;
-        let style = Style::of(agent.id.0, *stature);
-        let head = style.head(*stature);
+        let Wanted { agent, look, size, height_px } = wanted;
+        let style = Style::of(agent.id.0, *size);
+        let head = style.head(size.stature);
         let (joints, colours) = (self.posed(agent, style.age, head), style.colours(look));
         let owner = Owner { agent: agent.id.0, material: BODY };
         let cones = ConeFigure { skeleton: &self.skeleton, joints: &joints, colours: &colours, owner, style, head };
@@ -158,7 +158,7 @@ impl Figures {
         if wanted.height_px < CONES_PX {
             return MeshSize::default();
         }
-        let style = Style::of(wanted.agent.id.0, wanted.stature);
+        let style = Style::of(wanted.agent.id.0, wanted.size);
         self.templates(&style, wanted.height_px).map(Template::size).sum()
     }
 

@@ -24,3 +24,4 @@ mod template;
 mod trunk;
 
 pub(crate) use figures::{Figures, Wanted};
+pub(crate) use style::BodySize;

@@ -1,4 +1,4 @@
-//! e^(−x) and a soft maximum for inner loops: without branches, tables or calls, so the compiler emits vector
+//! e^(−x), a soft maximum and a smooth step for inner loops: without branches, tables or calls, so the compiler emits vector
 //! instructions.
 //!
 //! All operations are rounded exactly by IEEE 754, so every machine gives the same bits.
@@ -27,6 +27,13 @@ pub(crate) fn decay(x: f32) -> f32 {
 #[inline]
 pub(crate) fn soft_maximum(x: f32) -> f32 {
     x.max(0.0) + 2.0 / (libm::sqrtf(x * x + 4.0) + x.abs())
+}
+
+/// 3x² − 2x³, a smooth step from 0 to 1 over [0, 1]; 0 before and 1 after.
+#[inline]
+pub(crate) fn smooth_step(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use glam::Vec2;
 
 use crate::agents::Removal;
-use crate::population::{AgentId, AgentLife};
+use crate::population::{AgentId, AgentLife, drawn_stature};
 use crate::route::arrival::is_at_goal;
 use crate::scenario::ranges::{AGENTS_MAX, check_agent};
 use crate::scenario::{AgentSpec, AtGoal, SourceSpec};
@@ -163,9 +163,10 @@ impl Simulation {
         self.has_groups |= spec.group.is_some();
         self.has_priorities |= spec.priority != 0.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
-        self.agents.push(id, &spec, &self.scenario, context_of(&self.contexts, spec.style));
+        let stature = drawn_stature(&self.scenario, id, &spec);
+        self.agents.push(id, &spec, stature, &self.scenario, context_of(&self.contexts, spec.style));
         let character = self.scenario.character_of(id.0, &spec);
-        self.population.agents.push(AgentLife { character, ..AgentLife::new(spec, source, self.steps) });
+        self.population.agents.push(AgentLife { character, stature, ..AgentLife::new(spec, source, self.steps) });
         self.record_agent(self.agents.count() - 1);
         id
     }

@@ -57,7 +57,7 @@ impl Body {
         };
         motion.take_steps(root, target, rate_factor, stops, context, step);
         let advanced = motion.phase - phase_before;
-        motion.idle.advance(&context.db, step.dt_s);
+        motion.idle.advance(&context.db, command.step_state.stands, step.dt_s);
         let reverses = motion.smooth(&context.db, step);
         motion.inertialization.decay(step);
         extra.decay(step);

@@ -8,7 +8,9 @@ use crate::planning::plan::Stance;
 use crate::synthesis::SynthesisContext;
 use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ExtraState, MotionState};
-use crate::synthesis::pose::{BodyClearance, ContactState, ExcessLean, LookAt, SecondaryMotion, Squeeze, WeightShift};
+use crate::synthesis::pose::{
+    BodyClearance, Centring, ContactState, ExcessLean, LookAt, SecondaryMotion, Squeeze, WeightShift,
+};
 
 /// A simulated body.
 ///
@@ -64,6 +66,8 @@ pub struct Body {
     pub(crate) secondary: SecondaryMotion,
     /// Shift of the weight before a first step.
     pub(crate) weight_shift: WeightShift,
+    /// Displacement of the pelvis over the feet of a standing body.
+    pub(crate) centring: Centring,
 }
 
 /// The output of a body for a step.

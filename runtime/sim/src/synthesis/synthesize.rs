@@ -2,7 +2,7 @@
 //!
 //! [`Body::synthesize`] lists the stages. Root frame (x forward, y left, z up); metres, seconds.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
 
@@ -12,7 +12,8 @@ use crate::synthesis::command::CommandState;
 use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{
-    BodyClearance, ContactState, ExcessLean, FootMotion, LookAt, Posture, SecondaryMotion, Squeeze, WeightShift,
+    BodyClearance, Centring, ContactState, ExcessLean, FootMotion, LookAt, Posture, SecondaryMotion, Squeeze,
+    WeightShift,
 };
 use crate::synthesis::{Body, BodyOutput, Mode, SynthesisContext, TimeStep, Traits};
 
@@ -46,6 +47,7 @@ impl Body {
             room: ElbowRoom::default(),
             clearance: BodyClearance::default(),
             weight_shift: WeightShift::default(),
+            centring: Centring::default(),
         };
         let output = body.synthesize(context, &TimeStep::new(SETTLING_S));
         (body, output)
@@ -64,6 +66,7 @@ impl Body {
             room,
             clearance,
             weight_shift,
+            centring,
             command,
             ..
         } = self;
@@ -72,20 +75,21 @@ impl Body {
         let room = room.seen_from(frame.position_m, frame.forward);
         let active = motion.active(context);
         let mut posture = active_posture(motion, &active, context);
-        let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
-        motion.traits.shape(&mut posture.pose, &context.mean_rotations);
+        inertialize(&mut posture, &motion.inertialization, skeleton);
+        motion.traits.pitch(&mut posture.pose);
         look_at.turn(&mut posture.pose, skeleton);
-        squeeze.turn(&mut posture.pose, &context.mean_rotations, skeleton);
+        squeeze.turn(&mut posture.pose, &context.arm_means[context.base], skeleton);
         lean.lean(&mut posture, skeleton);
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
-        posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step));
-        let mut contacts_ahead = contacts_ahead(&active, motion, context);
         let stands = command.step_state.stands && motion.mode == Mode::Blending;
-        contact.settling.follow(stands, &contact.locks, step.dt_s);
+        posture.shift(centring.follow(stands, &contact.locks, &frame, step));
+        posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step) * Vec2::Y);
+        let mut contacts_ahead = contacts_ahead(&active, motion, context);
+        contact.settling.follow(stands, &posture.contacts, &contact.locks, step.dt_s);
         contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
         let feet = FootMotion {
-            planted: [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]),
+            planted: posture.contacts.map(|contact| contact >= PLANTED_CONTACT),
             contacts_ahead,
             turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
             is_new: motion.has_jumped,
@@ -100,7 +104,7 @@ impl Body {
         let mut output =
             output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context);
         if let (Some(foot), Some((_, left_s))) = (&mut output.stance.foot, contact.settling.swing()) {
-            foot.time_to_landing_s = left_s;
+            foot.time_to_landing_s = foot.time_to_landing_s.max(left_s);
         }
         output
     }
@@ -108,23 +112,29 @@ impl Body {
 
 /// The posture of the active motion; its legs are bent where a pose difference is to be added.
 fn active_posture(motion: &MotionState, active: &ActiveMotion, context: &SynthesisContext) -> Posture {
-    if motion.inertialization.is_active() {
+    let mut posture = if motion.inertialization.is_active() {
         active.bent_posture(context, motion.phase)
     } else {
         active.posture(context, motion.phase)
-    }
+    };
+    active.swing_arms(&mut posture.pose, motion.traits.arm_swing, context);
+    posture
 }
 
-/// Adds the pose difference that a switch has left. Returns which feet it keeps off the ground.
-fn inertialize(posture: &mut Posture, inertialization: &Inertialization, skeleton: &Skeleton) -> [bool; 2] {
+/// Adds the pose difference that a switch has left. Feet that it keeps off the ground have no contact.
+fn inertialize(posture: &mut Posture, inertialization: &Inertialization, skeleton: &Skeleton) {
     if !inertialization.is_active() {
-        return [false; 2];
+        return;
     }
     let before_m = posture.soles_m(skeleton);
     inertialization.add_to(&mut posture.pose);
     posture.retarget_feet(skeleton);
     let after_m = posture.soles_m(skeleton);
-    [0, 1].map(|side| is_held_up(&before_m[side], &after_m[side]))
+    for (side, contact) in posture.contacts.iter_mut().enumerate() {
+        if is_held_up(&before_m[side], &after_m[side]) {
+            *contact = 0.0;
+        }
+    }
 }
 
 /// Whether the pose difference lifts a foot off the ground. To plant it at once would be a jerk.

@@ -38,6 +38,8 @@ const LEAN_RATE_HZ: f32 = 30.0;
 /// Rate of the filter by which the whole body leans in a curve (`excess_lean`), 1/s: four fifths of the lean are made in
 /// 0.45 s, a step, since the feet land outward.
 const BODY_LEAN_RATE_HZ: f32 = 10.0;
+/// Rate of the filter that moves the pelvis of a standing body over its feet (`centring`), 1/s: 6 cm at .025 m/s at most.
+const CENTRING_RATE_HZ: f32 = 1.5;
 /// Rate of the filter that shifts the weight before a first step (`weight_shift`), 1/s: within 0.3 s the pelvis makes
 /// four fifths of the shift.
 const WEIGHT_SHIFT_RATE_HZ: f32 = 15.0;
@@ -102,6 +104,8 @@ pub struct TimeStep {
     pub(crate) secondary: SoftSpring,
     /// Filter of the weight shift.
     pub(crate) weight_shift: SoftSpring,
+    /// Filter that moves the pelvis of a standing body over its feet.
+    pub(crate) centring: SoftSpring,
     /// Spring of the pose difference after a switch.
     pub(crate) inertia: Spring,
     /// Filter that releases a foot lock.
@@ -139,6 +143,7 @@ impl TimeStep {
             clearance: soft_spring(CLEARANCE_RATE_HZ),
             secondary: soft_spring(SECONDARY_RATE_HZ),
             weight_shift: soft_spring(WEIGHT_SHIFT_RATE_HZ),
+            centring: soft_spring(CENTRING_RATE_HZ),
             inertia: spring(INERTIA_RATE_HZ),
             lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
             settling: soft_spring(SETTLING_RATE_HZ),

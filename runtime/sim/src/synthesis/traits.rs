@@ -2,7 +2,7 @@
 //!
 //! - *Cadence* at equal speed. A body of quick steps plays the gait of a lower speed, at a higher rate
 //!   ([`crate::synthesis::blending::cadence_curve`]). Semi-procedural locomotion states its cadence itself.
-//! - *Arms*: upper arms and forearms swing more or less about their mean in the base walk, each side by itself.
+//! - *Arms*: upper arms and forearms swing more or less about their mean in the motion that plays, each side by itself.
 //! - *Pitch* of trunk and head. The head takes the trunk's pitch back.
 //! - *Secondary motion*: head, forearms and hands of a walking body move a little
 //!   ([`crate::synthesis::pose::upper_body::secondary_motion`]).
@@ -11,13 +11,31 @@
 //! Lengths in metres, angles in radians; a pitch is positive forward.
 
 use glam::{Quat, Vec3};
-use motiondb::body::{JOINT_COUNT, Joint, Pose};
+use motiondb::body::{Joint, Pose};
 
 use crate::maths::angle::rotation;
 
 /// Joints of each arm that swing, `[left, right]`.
 pub(crate) const ARMS: [[Joint; 2]; 2] =
     [[Joint::LeftUpperArm, Joint::LeftForearm], [Joint::RightUpperArm, Joint::RightForearm]];
+
+/// Rotations of [`ARMS`].
+pub(crate) type ArmRotations = [[Quat; 2]; 2];
+
+/// Rotations of the joints of the arms in a pose.
+pub(crate) fn arm_rotations(pose: &Pose) -> ArmRotations {
+    ARMS.map(|arm| arm.map(|joint| pose.rotations[joint.index()]))
+}
+
+/// Scales the swing of each arm about its mean, `[left, right]`.
+pub(crate) fn swing_arms(pose: &mut Pose, means: &ArmRotations, swing: [f32; 2]) {
+    for ((arm, means), swing) in ARMS.iter().zip(means).zip(swing).filter(|(_, swing)| *swing != 1.0) {
+        for (joint, mean) in arm.iter().zip(means) {
+            let rotation = &mut pose.rotations[joint.index()];
+            *rotation = swung(*mean, *rotation, swing);
+        }
+    }
+}
 
 /// What one body does differently.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,20 +72,15 @@ impl Default for Traits {
 }
 
 impl Traits {
-    /// Gives the upper body of a pose these traits. `mean_rotations` are those of the joints in the base walk.
-    pub(crate) fn shape(&self, pose: &mut Pose, mean_rotations: &[Quat; JOINT_COUNT]) {
-        for (side, swing) in self.arm_swing.into_iter().enumerate().filter(|(_, swing)| *swing != 1.0) {
-            for joint in ARMS[side].map(Joint::index) {
-                pose.rotations[joint] = swung(mean_rotations[joint], pose.rotations[joint], swing);
-            }
-        }
+    /// Pitches trunk and head of a pose.
+    pub(crate) fn pitch(&self, pose: &mut Pose) {
         pitch(pose, Joint::SpineLower, self.trunk_pitch_rad);
         pitch(pose, Joint::Head, self.head_pitch_rad - self.trunk_pitch_rad);
     }
 }
 
 /// A rotation whose deviation from a mean is scaled.
-pub(crate) fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
+fn swung(mean: Quat, rotation: Quat, factor: f32) -> Quat {
     let mean = if mean.dot(rotation) < 0.0 { -mean } else { mean };
     (mean * (1.0 - factor) + rotation * factor).normalize()
 }
@@ -85,8 +98,8 @@ mod tests {
     use std::sync::Arc;
 
     use glam::Vec2;
-    use motiondb::body::Root;
-    use motiondb::motion::Parameters;
+    use motiondb::body::{JOINT_COUNT, Root};
+    use motiondb::motion::{PHASE_COUNT, Parameters};
 
     use super::*;
     use crate::planning::plan::Plan;
@@ -175,15 +188,35 @@ mod tests {
     }
 
     #[test]
+    fn arms_swing_about_the_mean_of_the_gait_that_plays() {
+        let mut db = test_db();
+        let (fast, forearm) = (3, Joint::LeftForearm.index());
+        for row in 0..PHASE_COUNT {
+            let bent = &mut db.rows.rotations[(fast * PHASE_COUNT + row) * JOINT_COUNT + forearm];
+            *bent = Quat::from_rotation_z(-1.2) * *bent;
+        }
+        let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+        let context = SynthesisContext::new(Arc::new(db), params);
+        let bend = |swing: f32| {
+            let steps = walk(&context, Traits { arm_swing: [swing; 2], ..Traits::default() }, 1.5);
+            steps[300].1.pose.rotations[forearm]
+        };
+        assert!(bend(1.0).angle_between(Quat::IDENTITY) > 0.8, "{}", bend(1.0));
+        assert!(bend(1.4).angle_between(bend(1.0)) < 0.1, "{} {}", bend(1.4), bend(1.0));
+    }
+
+    #[test]
     fn arms_swing_about_their_mean_and_legs_stay() {
         let db = test_db();
-        let (mean, mut pose) = (db.rows.mean_pose(2).rotations, db.rows.pose(2, 10));
+        let (mean_pose, mut pose) = (db.rows.mean_pose(2), db.rows.pose(2, 10));
+        let mean = mean_pose.rotations;
         let [left, right] = ARMS.map(|arm| arm[0].index());
         pose.rotations[left] = Quat::from_rotation_y(0.2) * mean[left];
         pose.rotations[right] = Quat::from_rotation_y(-0.2) * mean[right];
         let before = pose;
         let traits = Traits { arm_swing: [1.5, 0.5], trunk_pitch_rad: 0.05, head_pitch_rad: 0.1, ..Traits::default() };
-        traits.shape(&mut pose, &mean);
+        swing_arms(&mut pose, &arm_rotations(&mean_pose), traits.arm_swing);
+        traits.pitch(&mut pose);
         let swing_rad = |joint: usize| pose.rotations[joint].angle_between(mean[joint]);
         assert!((swing_rad(left) - 0.3).abs() < 5e-3 && (swing_rad(right) - 0.1).abs() < 5e-3);
         let skeleton = &db.skeleton;

@@ -22,7 +22,8 @@ Every clip is a whole number of strides of a steady gait (3 to 6; a stride need 
 **last frame is its first one, moved on** by those strides: for a loop leave it out. No two strides of a clip are
 equal: their duration, length and width, the lift of the foot, pelvis, trunk, arms and gaze vary as in humans
 (`plan/variation.rs`), about the steady gait that the table lists. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole` lie
-on the soles. Turns and side-steps are to the left; the compiler mirrors them.
+on the soles. Turns and side-steps are to the left; the compiler mirrors them. Idles are loops of 11 to 15 s on feet that
+never move; of one frame their last is the first again, too.
 
 v_f is positive forward, ω_t counter-clockwise, ω_s to the left. The step length is measured along the path of the root.
 
@@ -37,6 +38,7 @@ Sources:
 - joint curves, foot angles and pelvis amplitudes by speed: Schwartz, Rozumalski and Trost 2008 (*J. Biomech.* 41);
 - cadence, step length and double support: adults of 18–29 years, see `plan/gaits.rs`;
 - arms and trunk: see `motion/upper_body.rs`;
+- standing at ease, on one leg or both: Prado-Rico and Duarte 2019, Duarte and Zatsiorsky 1999 (*Motor Control* 23 and 3);
 - variation from stride to stride: Hausdorff et al. 1999, Beauchet et al. 2009, Skiadopoulos et al. 2020, see
   `plan/variation.rs`.
 ";

@@ -1,12 +1,12 @@
 //! No two strides are the same: seeded, small changes of every quantity from stride to stride.
 //!
-//! Each quantity changes as a sum of waves that are slower than the stride and close over the clip: a clip still loops,
-//! and the mean change over its strides is zero, so that the mean stride is the planned one. The duration of a stride
+//! Each quantity changes as a sum of waves that are slower than the stride and close over the clip ([`SlowChange`]): the
+//! mean change over its strides is zero, so that the mean stride is the planned one. The duration of a stride
 //! changes with the clock by which the gait runs ([`StrideVariation::strides_after`]), its length with the path of the
 //! root by that clock ([`StrideVariation::path_strides`]). Feet are set where the root then is, and stand.
 
-use crate::body::rotation::wave;
 use crate::plan::gait_plan::{PelvisAmplitudes, UpperBodyAmplitudes};
+use crate::plan::slow_change::SlowChange;
 
 /// Coefficient of variation of the stride's duration: 1.3 ± 0.1 % in young adults (Hausdorff et al. 1999, *J. Appl.
 /// Physiol.* 86, 1040–1047), usually below 3 % (Beauchet et al. 2009, *J. NeuroEng. Rehabil.* 6:32).
@@ -34,7 +34,7 @@ const LOOK_RAD: f64 = 0.012;
 /// The changes of one clip from stride to stride.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StrideVariation {
-    seed: u64,
+    change: SlowChange,
     strides: usize,
 }
 
@@ -52,11 +52,7 @@ pub(crate) struct StepChange {
 impl StrideVariation {
     /// The changes of the clip of this name.
     pub(crate) fn of_clip(name: &str, strides: usize) -> Self {
-        // FNV-1a.
-        let seed = name
-            .bytes()
-            .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-        Self { seed, strides }
+        Self { change: SlowChange::of_clip(name, strides - 1), strides }
     }
 
     /// Whole strides of the clip.
@@ -112,33 +108,13 @@ impl StrideVariation {
 
     /// A value of mean 0 and mean square 1 over the clip.
     fn noise(&self, channel: u64, strides: f64) -> f64 {
-        let clip_share = strides / self.strides as f64;
-        let waves = self.strides - 1;
-        let of_wave = |k: usize| wave(k as f64 * clip_share - self.random(channel * 16 + k as u64));
-        libm::sqrt(2.0 / waves as f64) * (1..=waves).map(of_wave).sum::<f64>()
-    }
-
-    /// A random number in [0, 1): SplitMix64.
-    fn random(&self, index: u64) -> f64 {
-        let mut z = self.seed.wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        self.change.at(channel, strides / self.strides as f64)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn changes_have_no_mean_and_close_over_the_clip() {
-        let variation = StrideVariation::of_clip("walk", 4);
-        let values: Vec<f64> = (0..400).map(|i| variation.noise(0, f64::from(i) / 100.0)).collect();
-        assert!(values.iter().sum::<f64>().abs() < 1e-9);
-        assert!((values.iter().map(|value| value * value).sum::<f64>() / 400.0 - 1.0).abs() < 1e-9);
-        assert!((variation.noise(0, 4.0) - values[0]).abs() < 1e-9);
-    }
 
     #[test]
     fn stride_durations_vary_by_the_published_share() {

@@ -65,14 +65,14 @@ fn idle(rest: &RestCandidate, clip: &HumanClip, found: &AnalyzedClip, body: &Hum
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{FRAC_PI_2, TAU};
+    use std::f64::consts::FRAC_PI_2;
 
     use glam::DQuat;
     use motiondb::body::Joint;
     use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 
     use crate::retarget::human_clip::HumanClip;
-    use crate::synthetic::{SyntheticWalk, database_of, idle, performance, walk};
+    use crate::synthetic::{SyntheticWalk, database_of, idle, performance, swaying, walk};
 
     fn names(clips: Vec<HumanClip>) -> Vec<String> {
         database_of(clips, 0).idles().map(|idle| idle.name.clone()).collect()
@@ -86,16 +86,6 @@ mod tests {
                 let hanging = DQuat::from_rotation_x(sign * (out_rad - FRAC_PI_2));
                 pose.rotations[joint.index()] = DQuat::from_rotation_y(-forward_rad) * hanging;
             }
-        }
-        clip
-    }
-
-    /// A body that stands and sways with a period.
-    fn swaying(name: &str, duration_s: f64, period_s: f64) -> HumanClip {
-        let mut clip = idle(name, duration_s);
-        for (frame, pose) in clip.frames.iter_mut().enumerate() {
-            let angle_rad = 0.03 * libm::sin(TAU * frame as f64 / (60.0 * period_s));
-            pose.rotations[Joint::SpineMiddle.index()] = DQuat::from_rotation_x(angle_rad);
         }
         clip
     }

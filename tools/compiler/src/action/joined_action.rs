@@ -1,18 +1,15 @@
 //! CutAction → JoinedAction: the examples at both ends, and the root between them.
 //!
-//! The root of an idle rests at the mean of the hips and of the facing, as that of a standing example does
-//! ([`crate::cycle::standing_cycle`]). World frame in, root frame out: metres, radians.
+//! The root of an idle rests where that of a standing example does ([`crate::cycle::standing_cycle`]). World frame in, root frame out: metres, radians.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use motiondb::motion::ActionKind;
-use motiondb::statistics::mean;
 
 use crate::action::cut_action::CutAction;
-use crate::cycle::standing_cycle::mean_facing_rad;
-use crate::ground::root_arc::{Rates, RootArc};
+use crate::cycle::standing_cycle::resting_arc;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
-use crate::select::named_cycles::NamedCycle;
+use crate::select::named_cycles::{NamedCycle, standing};
 
 /// An action as the database stores it, in f64.
 #[derive(Clone, Debug)]
@@ -46,7 +43,7 @@ pub(crate) struct JoinedFrame {
 
 /// The idles of the set in their order; none where it has no standing example.
 pub(crate) fn joined_idles(cut: Vec<CutAction>, cycles: &[NamedCycle], body: &HumanBody) -> Vec<JoinedAction> {
-    let Some(standing) = best_standing(cycles) else { return Vec::new() };
+    let Some(standing) = standing(cycles) else { return Vec::new() };
     cut.into_iter().map(|cut| joined_idle(cut, standing, body)).collect()
 }
 
@@ -60,17 +57,10 @@ pub(crate) fn in_order(idles: Vec<JoinedAction>, transitions: Vec<JoinedAction>)
     actions
 }
 
-/// Index of the standing example that the blend space uses: the one with the fewest flaws.
-pub(crate) fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
-    let standing = (0..cycles.len()).filter(|&index| !cycles[index].cycle.steps);
-    standing.min_by(|&a, &b| cycles[a].flaws.total_cmp(&cycles[b].flaws))
-}
-
 /// An idle about its resting root.
 fn joined_idle(cut: CutAction, standing: usize, body: &HumanBody) -> JoinedAction {
     let joints: Vec<HumanJoints> = cut.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
-    let start_m: DVec3 = mean(joints.iter().map(HumanJoints::hips_m)).unwrap_or_default();
-    let arc = RootArc { start_m: start_m.truncate(), facing_rad: mean_facing_rad(&joints), rates: Rates::default() };
+    let arc = resting_arc(&joints);
     let frame = |(pose, contacts): (&HumanPose, &[f64; 2])| JoinedFrame {
         pose: arc.relative(pose, 0.0),
         contacts: *contacts,

@@ -1,4 +1,4 @@
-//! A body that stands → GaitCycle without steps: both feet planted, the root at rest.
+//! A body that stands → GaitCycle without steps: both feet planted, the root at rest ([`resting_arc`]).
 //!
 //! The period is that of m_sp, so that standing and walking share one clock (definition "Example" of
 //! `docs/definitions.md`). The calmest of all windows of that length is used: the one whose ends are most alike, and
@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
-use motiondb::body::JOINT_COUNT;
+use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::statistics::mean;
 
 use crate::cycle::gait_cycle::GaitCycle;
@@ -28,12 +28,11 @@ pub(crate) fn standing_cycle(clip: &GroundedClip, body: &HumanBody, frames: Rang
     let first = calmest_start(clip, body, frames, length);
     let joints: Vec<HumanJoints> =
         (first..first + length).map(|frame| clip.pose(frame).forward_kinematics(body)).collect();
-    let hips_m = mean(joints.iter().map(|joints| joints.hips_m().truncate())).unwrap_or_default();
     let stride = Stride {
         zero_frame: first as f64,
         period_frames: (period_s * clip.frame_rate_hz).min(length as f64),
         left_share: 0.5,
-        arc: RootArc { start_m: hips_m, facing_rad: mean_facing_rad(&joints), rates: Rates::default() },
+        arc: resting_arc(&joints),
         ..Stride::default()
     };
     let mut cycle = mean_stride(clip, body, &[vec![FootStance::ALWAYS], vec![FootStance::ALWAYS]], &[stride]);
@@ -100,8 +99,21 @@ impl PositionsNear {
     }
 }
 
+/// The root of a body that stands: to the side between the ankles, whichever leg bears the weight, and ahead under the
+/// hips; on average over its poses.
+pub(crate) fn resting_arc(joints: &[HumanJoints]) -> RootArc {
+    let mean_m =
+        |point_m: &dyn Fn(&HumanJoints) -> DVec3| mean(joints.iter().map(point_m)).unwrap_or_default().truncate();
+    let hips_m = mean_m(&HumanJoints::hips_m);
+    let ankles_m = mean_m(&|joints| 0.5 * Joint::FEET.map(|foot| joints.position_m(foot)).into_iter().sum::<DVec3>());
+    let facing_rad = mean_facing_rad(joints);
+    let (sin, cos) = libm::sincos(facing_rad);
+    let left = DVec2::new(-sin, cos);
+    RootArc { start_m: hips_m + left * left.dot(ankles_m - hips_m), facing_rad, rates: Rates::default() }
+}
+
 /// Direction of the mean of all facing vectors, rad.
-pub(crate) fn mean_facing_rad(window: &[HumanJoints]) -> f64 {
+fn mean_facing_rad(window: &[HumanJoints]) -> f64 {
     let sum: DVec2 = window
         .iter()
         .map(|joints| {

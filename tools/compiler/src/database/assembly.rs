@@ -13,8 +13,7 @@ use crate::database::rows::rows;
 use crate::database::skeleton::skeleton;
 use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanBody;
-use crate::select::named_cycles::{NamedCycle, SelectedCycles};
-use crate::select::posture_penalty::posture_flaws;
+use crate::select::named_cycles::SelectedCycles;
 
 /// The database of cycles sorted by name; it may still be invalid.
 ///
@@ -35,7 +34,7 @@ pub(crate) fn assemble(
     let examples: Vec<MotionExample> = cycles.iter().map(|named| motion_example(named, body)).collect();
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
     observer(CompileEvent::Stage("blend space"));
-    let flaws: Vec<f64> = cycles.iter().map(|named| coincident_rank(named, body)).collect();
+    let flaws: Vec<f64> = cycles.iter().map(|named| named.rank(body)).collect();
     let blend_space = blend_space_of_best(&parameters, &flaws);
     note_coincident(&coincident_pairs(&parameters, &blend_space), &cycles, body, &mut sources);
     observer(CompileEvent::Stage("assembly"));
@@ -57,12 +56,4 @@ pub(crate) fn assemble(
     let base_walk = cycles.iter().position(|named| named.choices.is_semi_procedural);
     db.correspondence = base_walk.and_then(|example| Correspondence::of(&db, example));
     db
-}
-
-/// Flaws that rank examples with equal parameters: those of the window, plus the posture penalty. m_sp ranks first.
-fn coincident_rank(named: &NamedCycle, body: &HumanBody) -> f64 {
-    if named.choices.is_semi_procedural && !named.mirrored {
-        return f64::NEG_INFINITY;
-    }
-    named.flaws + posture_flaws(&named.cycle, body)
 }

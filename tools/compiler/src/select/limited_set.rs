@@ -1,6 +1,6 @@
 //! At most so many examples, so that the set still reaches as far as it can.
 //!
-//! m_sp, one cycle that stands and the ends of the set come first; then, each time, the cycle farthest from all that
+//! m_sp, the cycle that stands and the ends of the set come first; then, each time, the cycle farthest from all that
 //! are kept and from their mirrors. Distances: (v_f, ω_t, ω_s), each axis divided by its range (definition "Axes" of
 //! `docs/definitions.md`).
 
@@ -10,7 +10,7 @@ use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::cycle::rate_cells::in_cells;
-use crate::select::named_cycles::{NamedCycle, SelectedCycles};
+use crate::select::named_cycles::{NamedCycle, SelectedCycles, standing};
 
 /// Keeps at most so many cycles, all without a limit; the sources of the others get a note.
 pub(crate) fn limited_set(mut selected: SelectedCycles, max_examples: Option<NonZeroUsize>) -> SelectedCycles {
@@ -29,13 +29,13 @@ pub(crate) fn limited_set(mut selected: SelectedCycles, max_examples: Option<Non
     selected
 }
 
-/// Indices of so many cycles: m_sp, one that stands, the ends of the set, then each time the cycle farthest from all
+/// Indices of so many cycles: m_sp, the one that stands, the ends of the set, then each time the cycle farthest from all
 /// before and their mirrors; of several as far the one with the fewest flaws.
 fn farthest_reaching(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
     let points = normalised_rates(cycles);
     let ends = ends(&points);
     let base_walk = cycles.iter().position(|named| named.choices.is_semi_procedural);
-    let first = [base_walk, best_standing(cycles)].into_iter().flatten();
+    let first = [base_walk, standing(cycles)].into_iter().flatten();
     let mut kept = Vec::new();
     let mut is_kept = vec![false; cycles.len()];
     let mut gaps = vec![f64::INFINITY; cycles.len()];
@@ -55,12 +55,6 @@ fn farthest_reaching(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
         }
     }
     kept
-}
-
-/// Index of the cycle that stands with the fewest flaws.
-fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
-    let standing = (0..cycles.len()).filter(|index| !cycles[*index].cycle.steps);
-    standing.min_by(|a, b| cycles[*a].flaws.total_cmp(&cycles[*b].flaws))
 }
 
 /// (v_f, ω_t, ω_s) of each cycle, divided by the ranges over all cycles and their mirrors; 0 on an axis on which all

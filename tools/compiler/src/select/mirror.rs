@@ -22,12 +22,13 @@ const COUNTERPART_TURN_RAD_S: f64 = 10.0 * PI / 180.0;
 /// Both as a share of the mirrored rates; the greater of both limits counts.
 const COUNTERPART_SHARE: f64 = 0.15;
 
-/// Adds the mirrors that a manifest requests, else those of one-sided cycles without a counterpart.
+/// Adds the mirrors that a manifest requests of cycles that step, else those of one-sided cycles without a counterpart.
 pub(crate) fn with_mirrors(mut selected: SelectedCycles) -> SelectedCycles {
     let cycles = &mut selected.cycles;
     let rates: Vec<Rates> = cycles.iter().map(|named| named.cycle.rates).collect();
     let mirrors: Vec<NamedCycle> = cycles
         .iter()
+        .filter(|named| named.cycle.steps)
         .filter(|named| named.choices.mirror.unwrap_or_else(|| needs_mirror(&named.cycle.rates, &rates)))
         .map(|named| NamedCycle {
             name: format!("{}_mirrored", named.name),

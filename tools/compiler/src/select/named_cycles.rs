@@ -14,7 +14,7 @@ use crate::error::CompileError;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip};
 use crate::select::base_walk::{BaseWalkCandidate, base_walk};
-use crate::select::posture_penalty::posture_penalty_mps;
+use crate::select::posture_penalty::{posture_flaws, posture_penalty_mps};
 
 /// Period of standing clips in a set without steps, s.
 const STANDING_PERIOD_S: f64 = 1.0;
@@ -36,6 +36,22 @@ pub(crate) struct NamedCycle {
     pub(crate) flaws: f64,
     /// The cycle.
     pub(crate) cycle: GaitCycle,
+}
+
+impl NamedCycle {
+    /// Flaws by which cycles with equal parameters are ranked: those of the window, plus the posture penalty. m_sp ranks
+    /// first.
+    pub(crate) fn rank(&self, body: &HumanBody) -> f64 {
+        if self.choices.is_semi_procedural && !self.mirrored {
+            return f64::NEG_INFINITY;
+        }
+        self.flaws + posture_flaws(&self.cycle, body)
+    }
+}
+
+/// Index of the cycle that stands; `None` where none does.
+pub(crate) fn standing(cycles: &[NamedCycle]) -> Option<usize> {
+    cycles.iter().position(|named| !named.cycle.steps)
 }
 
 /// Cycles that become examples, and the records of all sources.

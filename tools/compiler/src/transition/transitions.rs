@@ -9,12 +9,12 @@
 use motiondb::motion::ActionKind;
 use rayon::prelude::*;
 
-use crate::action::joined_action::{JoinedAction, best_standing};
+use crate::action::joined_action::JoinedAction;
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::error::CompileError;
 use crate::gait::movements::{Movement, MovementKind};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
-use crate::select::named_cycles::{NamedCycle, window_name};
+use crate::select::named_cycles::{NamedCycle, standing, window_name};
 use crate::transition::example_rows::ExampleRows;
 use crate::transition::recorded_transition::{RecordedTransition, TransitionClip, recorded_transition};
 use crate::transition::selection::{best_transitions, needs_mirror};
@@ -30,7 +30,7 @@ pub(crate) fn transitions(
     cycles: &[NamedCycle],
     body: &HumanBody,
 ) -> Result<Vec<JoinedAction>, CompileError> {
-    let rows = ExampleRows::of(cycles, best_standing(cycles), body);
+    let rows = ExampleRows::of(cycles, standing(cycles), body);
     let of_clip = |index: usize| of_clip(index, &clips[index], &analyzed[index], &rows, body);
     let found: Vec<Vec<RecordedTransition>> = (0..clips.len()).into_par_iter().map(of_clip).collect();
     if let Some((clip, kind)) = unfulfilled(clips, &found) {

@@ -7,6 +7,7 @@ use glam::Vec2;
 
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::McnParams;
+use crate::planning::mcn::turn_first::slowed_to_turn;
 use crate::planning::mcn::{density_filter, keep_right, power_law};
 use crate::planning::world_view::WorldView;
 use crate::world::neighbours::Neighbour;
@@ -14,7 +15,7 @@ use crate::world::neighbours::neighbour_lanes::Lanes;
 
 /// Computes v_op into the memory. Returns the density ahead, 1/m.
 ///
-/// 1. v_pref turns to the right of agents that come;
+/// 1. v_pref turns to the right of agents that come, and slows down while the body turns to it;
 /// 2. driving force and social forces act for one step (Eq. 9);
 /// 3. the density filter limits the speed.
 pub(crate) fn adapt(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) -> f32 {
@@ -23,6 +24,9 @@ pub(crate) fn adapt(world: &WorldView, agent: usize, params: &McnParams, memory:
     let shares = world.shares(agent, memory.surroundings.neighbours.as_slice());
     if params.parts.keep_right {
         adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, neighbours, &shares, params);
+    }
+    if params.parts.turn_first && world.bodies {
+        adapted_mps = slowed_to_turn(world.forward(agent), world.along_route_mps(agent), adapted_mps);
     }
     if params.parts.adaptation {
         let forces_mps2 = forces_mps2(world, agent, &shares, params, memory);

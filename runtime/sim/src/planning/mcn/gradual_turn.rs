@@ -5,11 +5,12 @@
 //! not for a small angle, and faster the faster they walk. So the planned facing is ahead of the body's facing by
 //!
 //! ```text
-//! min(β·min(1, s_0 + s_1·v), a_0 + a_1·v),   β = max(0, α − d_0·max(0, 1 − v/v_0))
+//! min(β·min(1, s_0 + s_1·v), a_0 + a_1·v + a_2·t),   β = max(0, α − d_0·max(0, 1 − v/v_0))
 //! ```
 //!
 //! where α is the angle to the preferred facing and v the body's speed. A body that cannot step aside goes only where it
-//! faces; it turns for any angle, and sooner: d_0 = 0, and a greater s_1. World axes, m/s, radians.
+//! faces; it turns for any angle, and sooner: d_0 = 0, and a greater s_1. t, from 0 to 1, is how much an agent turns before it
+//! walks ([`crate::planning::mcn::turn_first`]): quickly, as people turn on the spot. World axes, m/s, radians.
 
 use glam::Vec2;
 
@@ -24,20 +25,24 @@ const AHEAD_AT_REST_RAD: f32 = 0.35;
 /// a_1: how much that angle grows with the speed, rad/(m/s).
 const AHEAD_RAD_PER_MPS: f32 = 0.15;
 
+/// a_2: how much that angle grows for an agent that turns before it walks, rad; with a_0 a body turns at 130 °/s.
+const AHEAD_TURNING_RAD: f32 = 0.35;
+
 /// d_0: angle to the preferred facing for which a standing body does not turn, rad: 17°.
 const TOLERANCE_AT_REST_RAD: f32 = 0.3;
 /// v_0: speed from which on a body turns for any angle, m/s.
 const TURNS_AT_MPS: f32 = 0.6;
 
-/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`. Unit vectors.
-pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_aside: bool) -> Vec2 {
+/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`, where it turns before
+/// it walks by a share `turning`. Unit vectors.
+pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_aside: bool, turning: f32) -> Vec2 {
     let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
     let tolerance_rad =
         if steps_aside { TOLERANCE_AT_REST_RAD } else { 0.0 } * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
     let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
     let share_per_mps = if steps_aside { SHARE_PER_MPS } else { SHARE_PER_MPS_AHEAD };
     let share = (SHARE_AT_REST + share_per_mps * speed_mps).min(1.0);
-    let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps;
+    let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps + AHEAD_TURNING_RAD * turning;
     let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
     let (sin, cos) = libm::sincosf(ahead_rad);
     Vec2::new(cos, sin).rotate(forward)
@@ -50,7 +55,7 @@ mod tests {
     /// The angle ahead of a body that faces +x, rad.
     fn ahead_rad(facing_rad: f32, speed_mps: f32) -> f32 {
         let (sin, cos) = libm::sincosf(facing_rad);
-        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps, true).to_angle()
+        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps, true, 0.0).to_angle()
     }
 
     #[test]
@@ -77,12 +82,12 @@ mod tests {
     fn standing_body_does_not_turn_for_a_small_angle() {
         assert_eq!(ahead_rad(0.25, 0.0), 0.0);
         assert!(ahead_rad(0.25, 0.4) > 0.03 && ahead_rad(-0.25, 0.4) < -0.03);
-        assert!(gradual_facing(Vec2::X, Vec2::from_angle(0.25), 0.0, false).y > 0.05);
+        assert!(gradual_facing(Vec2::X, Vec2::from_angle(0.25), 0.0, false, 0.0).y > 0.05);
     }
 
     #[test]
     fn body_that_cannot_step_aside_turns_sooner() {
-        let ahead_rad = |steps_aside| gradual_facing(Vec2::X, Vec2::from_angle(0.4), 1.0, steps_aside).to_angle();
+        let ahead_rad = |steps_aside| gradual_facing(Vec2::X, Vec2::from_angle(0.4), 1.0, steps_aside, 0.0).to_angle();
         assert!((ahead_rad(true) - 0.22).abs() < 1e-5 && (ahead_rad(false) - 0.32).abs() < 1e-5);
     }
 

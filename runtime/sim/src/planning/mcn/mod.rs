@@ -7,7 +7,8 @@
 //!
 //! 1. `adaptation` (§4.3): v_pref → v_op, by `keep_right`, the forces of `power_law` and the `density_filter`;
 //! 2. the half-planes of `avoidance` (§4.4), `stance_half_plane` (§4.2) and `motion_constraints` (§4.1);
-//! 3. `orientation` (§4.5), and `gradual_turn`, which plans it little by little.
+//! 3. `orientation` (§4.5), and `gradual_turn`, which plans it little by little; where the route leads aside or behind, agents
+//!    `turn_first`.
 //!
 //! `params` holds the tunables and the switches of the parts, `memory` what is kept from plan to plan.
 
@@ -25,6 +26,7 @@ pub(crate) mod power_law;
 pub(crate) mod stance_half_plane;
 #[cfg(test)]
 mod tests;
+pub(crate) mod turn_first;
 
 pub use motion_constraints::{ConvexSet, MotionConstraints};
 pub use params::{McnParams, McnParts, StanceForm};

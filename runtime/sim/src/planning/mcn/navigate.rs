@@ -14,6 +14,7 @@ use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::orientation::{self, Orientation, OrientationInput};
 use crate::planning::mcn::params::{McnParams, StanceForm};
 use crate::planning::mcn::stance_half_plane::{radial_segment_m, stance_half_plane};
+use crate::planning::mcn::turn_first::turning_along_route;
 use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::orca::linear_program;
 use crate::planning::orca::wall_half_planes::segment_half_plane;
@@ -62,7 +63,13 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
     };
     let facing = if world.bodies {
         let steps_aside = steps_aside(world, agent, memory.forward);
-        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length(), steps_aside)
+        let route_mps = world.along_route_mps(agent);
+        let turning = if params.parts.turn_first {
+            turning_along_route(memory.forward, orientation.facing, route_mps)
+        } else {
+            0.0
+        };
+        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length(), steps_aside, turning)
     } else {
         orientation.facing
     };

@@ -33,6 +33,8 @@ pub struct McnParts {
     pub queueing: bool,
     /// Whether agents that stand in contact, and want to go in different directions, press on.
     pub pressing: bool,
+    /// Whether agents whose route leads aside or behind turn before they walk.
+    pub turn_first: bool,
 }
 
 /// How the stance foot limits the velocity (§4.2).
@@ -61,6 +63,7 @@ impl Default for McnParts {
             keep_right: true,
             queueing: true,
             pressing: true,
+            turn_first: true,
         }
     }
 }

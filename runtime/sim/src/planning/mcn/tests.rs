@@ -286,6 +286,18 @@ fn an_agent_at_rest_presses_on_except_in_a_queue() {
 }
 
 #[test]
+fn an_agent_that_stands_turns_to_its_way_before_it_walks() {
+    let mut aside = alone(WALK.perp());
+    aside.velocities_mps[0] = Vec2::ZERO;
+    check_switch(&aside, &alone(WALK), |parts| parts.turn_first = false);
+    let with = aside.plan();
+    aside.params.planner.parts.turn_first = false;
+    let without = aside.plan();
+    assert!(with.velocity_mps.length() < 0.5 * without.velocity_mps.length(), "{with:?} {without:?}");
+    assert!(with.facing_rad > without.facing_rad + 0.02, "{with:?} {without:?}");
+}
+
+#[test]
 fn the_density_filter_matters_in_a_crowd() {
     check_switch(&dense(), &encounter(), |parts| parts.density_filter = false);
 }
@@ -301,6 +313,8 @@ fn the_hull_matters_outside_it() {
 fn sharp_turns_matter_where_v_pref_lies_behind() {
     let mut behind = alone(Vec2::new(-0.3, 0.4));
     behind.velocities_mps[0] = Vec2::new(-0.05, 0.3);
+    // An agent that turns first is slower than any sharp turn.
+    behind.params.planner.parts.turn_first = false;
     check_switch(&behind, &encounter(), |parts| parts.sharp_turns = false);
 }
 
@@ -380,6 +394,7 @@ fn without_its_parts_mcn_is_orca() {
         keep_right: false,
         queueing: false,
         pressing: false,
+        turn_first: false,
     };
     for mut scene in [encounter(), dense(), closed_in()] {
         scene.velocities_mps[1..].iter_mut().for_each(|velocity_mps| *velocity_mps *= 1.2);

@@ -152,6 +152,7 @@ impl From<McnPartsV1> for McnParts {
             keep_right: parts.keep_right,
             queueing: false,
             pressing: false,
+            turn_first: false,
         }
     }
 }

@@ -9,6 +9,7 @@
 //! trunk_pitch_deg = 2
 //! head_pitch_deg = 4
 //! secondary_motion = 1                # of head, forearms and hands, where the clips lack it
+//! stature = 0.05                      # a share: deviation of the size of the body
 //! ```
 
 use std::fmt;

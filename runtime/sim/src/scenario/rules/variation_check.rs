@@ -14,6 +14,8 @@ const CADENCE: RangeInclusive<f32> = 0.0..=0.1;
 const SWING: RangeInclusive<f32> = 0.0..=0.4;
 /// Deviations of the pitch of trunk and head, degrees.
 const PITCH_DEG: RangeInclusive<f32> = 0.0..=10.0;
+/// Deviation of the size of the body, as a share.
+const STATURE: RangeInclusive<f32> = 0.0..=0.1;
 /// Secondary motion, divided by that of captures.
 const SECONDARY: RangeInclusive<f32> = 0.0..=3.0;
 
@@ -31,6 +33,7 @@ pub(crate) fn check_variation(variation: &Variation) -> Result<(), ScenarioFault
         trunk_pitch_deg,
         head_pitch_deg,
         secondary_motion,
+        stature,
     } = *variation;
     let help = "write `reaction_s = [least, greatest]`, in seconds";
     within(part, "the least of reaction_s", from_s, &REACTION_S, help)?;
@@ -40,7 +43,8 @@ pub(crate) fn check_variation(variation: &Variation) -> Result<(), ScenarioFault
     within(part, "arm_asymmetry", arm_asymmetry, &SWING, REMOVE)?;
     within(part, "trunk_pitch_deg", trunk_pitch_deg, &PITCH_DEG, REMOVE)?;
     within(part, "head_pitch_deg", head_pitch_deg, &PITCH_DEG, REMOVE)?;
-    within(part, "secondary_motion", secondary_motion, &SECONDARY, REMOVE)
+    within(part, "secondary_motion", secondary_motion, &SECONDARY, REMOVE)?;
+    within(part, "stature", stature, &STATURE, REMOVE)
 }
 
 #[cfg(test)]
@@ -74,7 +78,8 @@ mod tests {
             ("[variation]\nreaction_s = [0.8, 0.2]", "the greatest of reaction_s is 0.2"),
             ("[variation]\nreaction_s = [0.2, 20]", "the greatest of reaction_s is 20"),
             ("[variation]\nhead_pitch_deg = nan", "head_pitch_deg is NaN"),
-            ("[variation]\nstature = 1", "unknown field `stature`"),
+            ("[variation]\nstature = 0.2", "stature is 0.2"),
+            ("[variation]\nheight = 1", "unknown field `height`"),
             ("variation = 3", "`true`, `false` or a table `[variation]` is expected here"),
         ];
         for (text, expected) in cases {

@@ -33,10 +33,10 @@ fn children_are_slower_and_smaller() {
             }
         }
     });
+    let statures: Vec<f32> = simulation.population().agents.iter().map(|life| life.stature).collect();
+    assert!(statures[0] != 1.0 && statures[1] == 0.6, "{statures:?}");
     assert!((greatest_mps[0] - 1.33).abs() < 0.05 && (greatest_mps[1] - 1.03).abs() < 0.05, "{greatest_mps:?}");
     assert!(arrival_s[1] > 1.2 * arrival_s[0] && arrival_s[1] < 11.5, "{arrival_s:?}");
-    let statures: Vec<f32> = simulation.population().agents.iter().map(|life| life.stature).collect();
-    assert_eq!(statures, [1.0, 0.6]);
 }
 
 #[test]
@@ -82,4 +82,18 @@ fn bodies_of_discs_and_sources_have_a_size() {
         assert!((0.5..=0.7).contains(&life.stature), "{}", life.stature);
         assert_eq!((life.spec.radius_m, life.spec.preferred_speed_mps), (0.2, 0.9));
     }
+}
+
+#[test]
+fn adults_differ_in_size_and_keep_their_speed() {
+    let walker = |y_m: usize| format!("[[agents]]\nat_m = [0, {y_m}]\ngoals_m = [[20, {y_m}]]\n");
+    let text = format!("duration_s = 6\n{}", (0..6).map(|index| walker(4 * index)).collect::<String>());
+    let simulation = run(&scenario_of(&text), |_, _| {});
+    let lives = &simulation.population().agents;
+    for (life, velocity_mps) in lives.iter().zip(&simulation.agents.velocities_mps) {
+        assert!((0.88..=1.12).contains(&life.stature) && life.stature != 1.0, "{}", life.stature);
+        assert!((velocity_mps.length() - 1.33).abs() < 0.03, "{velocity_mps}");
+        assert_eq!(life.spec.radius_m, lives[0].spec.radius_m);
+    }
+    assert!(lives.windows(2).all(|pair| pair[0].stature != pair[1].stature));
 }

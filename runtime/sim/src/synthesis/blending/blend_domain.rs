@@ -30,8 +30,12 @@ const CURVE_RATE_MAX: f32 = 1.35;
 /// Least speed to which a body slows down so that a curve needs no run, m/s: in a set without tight walks it still comes
 /// round the corner.
 const CURVE_MIN_MPS: f32 = 0.5;
-/// Share of the speed of the slowest run from which on a body may begin to run.
+/// Share of the speed of the slowest run from which on a body may begin to run in curves and aside.
 const RUN_NEARLY: f32 = 0.75;
+/// Turn rate from which on a body goes in a curve, rad/s: 10 °/s.
+const CURVE_RAD_S: f32 = 0.175;
+/// Speed to the side from which on a body goes aside, m/s.
+const ASIDE_MPS: f32 = 0.1;
 /// Share of running above the usual one that is none: rounding.
 const RUN_TOLERANCE: f32 = 1e-3;
 /// Halvings of the interval in which the rate, or the speed, of a curve lies: to less than 1 %.
@@ -181,13 +185,15 @@ impl BlendDomain {
         halved([1.0, least], |share| self.played(slowed(share), quick), fits)
     }
 
-    /// Greatest share of running at the speed of some parameters: that of a body that goes straight on; all from the
-    /// slowest run on.
+    /// Greatest share of running at some parameters: that of a body that goes straight on at their speed. In curves and
+    /// aside there is more near the speed of the slowest run, and all from its speed on.
     fn usual_run_share(&self, parameters: Parameters) -> f32 {
         let speed_mps = parameters.velocity_mps().length();
         let straight_on = self.played(Parameters { speed_mps, ..Parameters::default() }, 1.0);
-        let near_run = (speed_mps / self.run_min_mps - RUN_NEARLY) / (1.0 - RUN_NEARLY);
-        self.run_share(&straight_on).max(near_run)
+        let near_run = ((speed_mps / self.run_min_mps - RUN_NEARLY) / (1.0 - RUN_NEARLY)).clamp(0.0, 1.0);
+        let Parameters { turn_rate_rad_s, strafe_mps, .. } = parameters;
+        let off_straight = turn_rate_rad_s.abs() / CURVE_RAD_S + strafe_mps.abs() / ASIDE_MPS;
+        self.run_share(&straight_on).max(near_run * off_straight.min(1.0))
     }
 
     /// Share of the examples that run.

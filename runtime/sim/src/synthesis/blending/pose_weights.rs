@@ -52,13 +52,15 @@ impl PoseWeights {
         &'a self,
         db: &'a MotionDb,
         phase: f32,
-        idle: Option<[(&'a [Quat], f32); 2]>,
+        idle: Option<[(&'a [Quat], f32); 4]>,
     ) -> impl Iterator<Item = (&'a [Quat], f32)> {
         let (rows, shares) = rows_at(phase);
         self.entries().iter().flat_map(move |&(example, weight)| {
             let row = |index: usize| (db.extra.row(example as usize, rows[index]), shares[index]);
-            let parts = idle.filter(|_| stands(db, example)).unwrap_or_else(|| [0, 1].map(row));
-            parts.map(|(rotations, share)| (rotations, weight * share))
+            let idle = idle.filter(|_| stands(db, example));
+            let rows = idle.is_none().then(|| [0, 1].map(row));
+            let parts = idle.into_iter().flatten().chain(rows.into_iter().flatten());
+            parts.map(move |(rotations, share)| (rotations, weight * share))
         })
     }
 

@@ -3,6 +3,7 @@
 //! Root frame (x forward, y left, z up), metres; seconds.
 
 use glam::Quat;
+use motiondb::body::Pose;
 
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::SynthesisContext;
@@ -12,6 +13,7 @@ use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::pose::Posture;
 use crate::synthesis::pose::upper_body::curve_look::turn_ahead;
 use crate::synthesis::semi_procedural::Deformation;
+use crate::synthesis::traits::{ArmRotations, swing_arms};
 
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +70,24 @@ impl ActiveMotion<'_> {
             Self::SemiProcedural(deformation) => extra.blend(deformation.extra_rows(db, phase), rotations),
             Self::Transition(played) => extra.blend(played.extra_frames(db, phase), rotations),
         }
+    }
+
+    /// Scales the swing of each arm of a pose, `[left, right]`, about its mean over the motion.
+    pub(crate) fn swing_arms(&self, pose: &mut Pose, swing: [f32; 2], context: &SynthesisContext) {
+        if swing != [1.0; 2] {
+            swing_arms(pose, &self.arm_means(context), swing);
+        }
+    }
+
+    /// Mean rotations of the joints of the arms: of the examples that are blended, otherwise of the base walk.
+    fn arm_means(&self, context: &SynthesisContext) -> ArmRotations {
+        let Self::Blending { drawn, .. } = self else { return context.arm_means[context.base] };
+        let of = |example: u32| &context.arm_means[example as usize];
+        let sum = |arm: usize, joint: usize| {
+            let weighted = drawn.entries().iter().map(|&(example, weight)| of(example)[arm][joint] * weight);
+            weighted.reduce(|sum, rotation| sum + rotation).map_or(Quat::IDENTITY, Quat::normalize)
+        };
+        [0, 1].map(|arm| [0, 1].map(|joint| sum(arm, joint)))
     }
 
     /// Contact of each foot, `[left, right]`.

@@ -60,12 +60,16 @@ pub(crate) struct Moment<'a> {
     pub(crate) active: ActiveMotion<'a>,
     /// φ.
     pub(crate) phase: f32,
+    /// Swing of each arm, `[left, right]`, divided by that of the clips.
+    pub(crate) arm_swing: [f32; 2],
 }
 
 impl Moment<'_> {
     /// The pose with its legs bent to the targets of the feet.
     pub(crate) fn pose(&self, context: &SynthesisContext) -> Pose {
-        self.active.bent_posture(context, self.phase).pose
+        let mut pose = self.active.bent_posture(context, self.phase).pose;
+        self.active.swing_arms(&mut pose, self.arm_swing, context);
+        pose
     }
 }
 

@@ -188,9 +188,10 @@ impl MotionState {
             wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(context, self.phase));
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
-        let mut earlier_idle = self.idle;
-        earlier_idle.advance(&context.db, -step.look_back_s);
+        let earlier_idle = self.idle.earlier(&context.db, step.look_back_s);
         let earlier = self.drawn(context, &smoothed, earlier_idle, earlier_phase);
-        [Moment { active, phase: self.phase }, Moment { active: earlier, phase: earlier_phase }]
+        let arm_swing = self.traits.arm_swing;
+        let now = Moment { active, phase: self.phase, arm_swing };
+        [now, Moment { active: earlier, phase: earlier_phase, arm_swing }]
     }
 }

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::Quat;
-use motiondb::body::JOINT_COUNT;
 use motiondb::motion::MotionDb;
 
 use crate::synthesis::HmsParams;
@@ -13,6 +11,7 @@ use crate::synthesis::library::hybrid_data::HybridData;
 use crate::synthesis::library::starts::Starts;
 use crate::synthesis::pose::LackingMotion;
 use crate::synthesis::pose::upper_body::squeeze::shoulder_breadth_m;
+use crate::synthesis::traits::{ArmRotations, arm_rotations};
 
 /// A database and what the synthesis derives from it, shared by all bodies.
 ///
@@ -38,8 +37,10 @@ pub struct SynthesisContext {
     pub hybrid: Option<HybridData>,
     /// Recorded starts.
     pub(crate) starts: Starts,
-    /// Mean rotation of each joint in the base walk, or in the first example where none walks.
-    pub mean_rotations: [Quat; JOINT_COUNT],
+    /// Mean rotations of the joints of the arms in each example.
+    pub(crate) arm_means: Vec<ArmRotations>,
+    /// Index of the base walk, or of the first example where none walks.
+    pub(crate) base: usize,
     /// Strides per second of the base walk.
     pub base_hz: f32,
     /// Speed of the base walk, m/s.
@@ -61,12 +62,13 @@ impl SynthesisContext {
     /// Prepares a database as it is: of a set without side-steps, bodies do not side-step.
     pub fn of_complete(db: Arc<MotionDb>, params: HmsParams) -> Self {
         let base = walk(&db).unwrap_or(0);
-        let (mean_rotations, base_hz) = (db.rows.mean_pose(base).rotations, 1.0 / db.examples[base].phase_map.period_s);
+        let base_hz = 1.0 / db.examples[base].phase_map.period_s;
+        let arm_means = (0..db.examples.len()).map(|example| arm_rotations(&db.rows.mean_pose(example))).collect();
         let (domain, hybrid) = (BlendDomain::new(&db), HybridData::new(&db, params.modes));
         let base_mps = db.examples[base].parameters.speed_mps.abs().max(f32::MIN_POSITIVE);
         let (lacking, shoulder_breadth_m) = (LackingMotion::of(&db, base), shoulder_breadth_m(&db.skeleton));
         let starts = Starts::of(&db);
-        Self { starts, lacking, shoulder_breadth_m, domain, hybrid, mean_rotations, base_hz, base_mps, db, params }
+        Self { starts, lacking, shoulder_breadth_m, domain, hybrid, arm_means, base, base_hz, base_mps, db, params }
     }
 }
 

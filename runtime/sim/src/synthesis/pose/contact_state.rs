@@ -46,7 +46,6 @@ impl ContactState {
         step: &TimeStep,
     ) {
         let (soles_m, pivot_rad) = (posture.soles_m(skeleton), step.dt_s * pivot_rate_rad_s(motion.turn_rate_rad_s));
-        let settles = self.settling.swing().is_some();
         // The stance foot first: the other one avoids it.
         let first = usize::from(!self.locks[0].planted());
         let (mut locked, mut held) = (posture.feet, [false; 2]);
@@ -67,6 +66,7 @@ impl ContactState {
             };
             let away_m = frame.forward.rotate(into_room_m + past_stance_m);
             let (planted, contact_ahead) = (motion.planted[side], motion.contacts_ahead[side]);
+            let settles = self.settling.swing().is_some_and(|(swinging, _)| swinging == side);
             let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles };
             let lock = self.locks[side].step(&posed, &footing, step);
             held[side] = lock.is_held;

@@ -17,7 +17,7 @@
 use glam::{Quat, Vec3};
 use motiondb::body::{Pose, Skeleton};
 
-use crate::maths::decay::soft_maximum;
+use crate::maths::decay::{smooth_step, soft_maximum};
 use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 use crate::synthesis::pose::leg_length::EXTENSION;
 use crate::synthesis::pose::pelvis::SOFTNESS_M;
@@ -45,12 +45,6 @@ pub(crate) fn raised(pose: &mut Pose, skeleton: &Skeleton, side: usize, leg: &Po
     pose.rotations[toe] = small_rotation(-half_rad * Vec3::Y) * pose.rotations[toe];
     let rise = small_rotation(half_rad * axis);
     FootPose { ankle_m: foot.ankle_m + to_toes_m - rise * to_toes_m, orientation: rise * foot.orientation }
-}
-
-/// Smooth step from 0 to 1 over [0, 1]; 1 above.
-fn smooth_step(x: f32) -> f32 {
-    let x = x.min(1.0);
-    x * x * (3.0 - 2.0 * x)
 }
 
 /// Length by which a leg is too short for a distance from hip to ankle, softly, m.

@@ -4,8 +4,9 @@
 //!
 //! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_room`,
 //! `leg_clearance`, `settling_step`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a
-//! first step; `lean` tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
+//! first step, `centring` over the feet of a standing body; `lean` tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
 
+pub(crate) mod centring;
 pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
 pub(crate) mod foot_room;
@@ -21,6 +22,7 @@ pub(crate) mod settling_step;
 pub(crate) mod upper_body;
 pub(crate) mod weight_shift;
 
+pub(crate) use centring::Centring;
 pub(crate) use contact_state::{ContactState, FootMotion};
 pub(crate) use foot_lock::FootLock;
 pub(crate) use lean::ExcessLean;

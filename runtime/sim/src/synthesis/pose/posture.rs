@@ -60,10 +60,11 @@ impl Posture {
         self.feet = feet;
     }
 
-    /// Moves the pelvis to the left, m; the targets of the feet stay.
-    pub(crate) fn shift(&mut self, left_m: f32) {
-        self.pose.pelvis_m.y += left_m;
-        self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.y += left_m);
+    /// Moves the pelvis forward and left, m; the targets of the feet stay.
+    pub(crate) fn shift(&mut self, moved_m: Vec2) {
+        let moved_m = moved_m.extend(0.0);
+        self.pose.pelvis_m += moved_m;
+        self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| *position_m += moved_m);
     }
 
     /// Tilts the body over its feet, and its trunk by `trunk_rad` in all; the pelvis stays over the root. Returns the

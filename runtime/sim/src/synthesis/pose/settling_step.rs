@@ -5,6 +5,7 @@
 //!
 //! Metres, radians, seconds; sides are 0 left, 1 right.
 
+use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::pose::FootLock;
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 
@@ -21,9 +22,11 @@ pub(crate) struct SettlingStep {
 }
 
 impl SettlingStep {
-    /// Goes on by one step, given the feet after the last one; a body that does not stand takes none.
-    pub(crate) fn follow(&mut self, stands: bool, locks: &[FootLock; 2], dt_s: f32) {
-        self.swing = match self.swing.filter(|_| stands) {
+    /// Goes on by one step, given the contacts of the motion and the feet after the last step. A body that does not stand
+    /// begins none, but ends the one that it began, as long as its motion leaves the other foot on the ground.
+    pub(crate) fn follow(&mut self, stands: bool, contacts: &[f32; 2], locks: &[FootLock; 2], dt_s: f32) {
+        let goes_on = |side: usize| stands || contacts[1 - side] >= PLANTED_CONTACT;
+        self.swing = match self.swing.filter(|(side, _)| goes_on(*side)) {
             Some((side, left_s)) => Some((side, left_s - dt_s)).filter(|(_, left_s)| *left_s > 0.0),
             None if stands => foot_off(locks).map(|side| (side, DURATION_S)),
             None => None,
@@ -34,7 +37,9 @@ impl SettlingStep {
     pub(crate) fn lift(&self, contacts: &mut [f32; 2], contacts_ahead: &mut [f32; 2]) {
         if let Some((side, left_s)) = self.swing {
             contacts[side] = 0.0;
-            contacts_ahead[side] = if left_s > LANDING_AHEAD_S { 0.0 } else { 1.0 };
+            if left_s > LANDING_AHEAD_S {
+                contacts_ahead[side] = 0.0;
+            }
         }
     }
 
@@ -99,6 +104,22 @@ mod tests {
     fn a_body_that_stands_well_lifts_no_foot() {
         let steps = stop(Vec2::ZERO, 0.0);
         assert!(steps.iter().all(|(_, planted, _)| *planted));
+    }
+
+    #[test]
+    fn a_body_that_starts_while_a_foot_settles_has_one_on_the_ground() {
+        let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+        let context = SynthesisContext::new(Arc::new(test_db()), params);
+        for start_s in (0..12).map(|step| 2.9 + 0.05 * step as f32) {
+            let plan = |time_s: f32, _: &Root| Plan {
+                velocity_mps: if (2.0..start_s).contains(&time_s) { Vec2::ZERO } else { Vec2::X },
+                time_to_collision_s: f32::INFINITY,
+                ..Plan::default()
+            };
+            let contacts = context.walk_alone(0.3, 5.0, DT_S, plan, |_, output| output.contacts);
+            let in_the_air = |contacts: &[f32; 2]| contacts.iter().all(|contact| *contact < PLANTED_CONTACT);
+            assert_eq!(contacts.iter().position(in_the_air), None, "started at {start_s} s");
+        }
     }
 
     #[test]

@@ -15,13 +15,12 @@
 //!
 //! Angles counter-clockwise from above, radians; metres.
 
-use glam::Quat;
-use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::maths::angle::yaw;
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::upper_body::yaw_limit::within_limits_rad;
-use crate::synthesis::traits::{ARMS, swung};
+use crate::synthesis::traits::{ArmRotations, swing_arms};
 
 /// Width, divided by the breadth of the shoulders, below which shoulders turn.
 const WIDE: f32 = 1.3;
@@ -69,15 +68,13 @@ impl Squeeze {
     }
 
     /// Turns the shoulders of a pose, and stills its arms about their means in the base walk.
-    pub(crate) fn turn(&self, pose: &mut Pose, mean_rotations: &[Quat; JOINT_COUNT], skeleton: &Skeleton) {
+    pub(crate) fn turn(&self, pose: &mut Pose, arm_means: &ArmRotations, skeleton: &Skeleton) {
         let angle_rad = self.angle_rad[0];
         if angle_rad.abs() < AHEAD_RAD {
             return;
         }
         let swing = 1.0 - STILL_ARMS * (angle_rad.abs() / ANGLE_MAX_RAD).min(1.0);
-        for joint in ARMS.into_iter().flatten().map(Joint::index) {
-            pose.rotations[joint] = swung(mean_rotations[joint], pose.rotations[joint], swing);
-        }
+        swing_arms(pose, arm_means, [swing; 2]);
         for (joint, share) in SHARES {
             let rotation = &mut pose.rotations[joint.index()];
             let [least, greatest] = skeleton.limits_rad[joint.index()];
@@ -100,6 +97,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::synthesis::traits::arm_rotations;
     use crate::test_db::test_db;
 
     /// Turn of the shoulders after a second between gaps of widths, divided by the breadth, degrees.
@@ -141,7 +139,7 @@ mod tests {
         let db = test_db();
         let before = db.rows.pose(2, 10);
         let mut pose = before;
-        let mean = db.rows.mean_pose(2).rotations;
+        let mean = arm_rotations(&db.rows.mean_pose(2));
         Squeeze { angle_rad: [0.5, 0.0, 0.0], left_first: false }.turn(&mut pose, &mean, &db.skeleton);
         let [from, to] = [before, pose].map(|pose| pose.forward_kinematics(&db.skeleton));
         let ahead_rad = |joints: &motiondb::body::Joints, joint: Joint| {
