@@ -95,9 +95,9 @@ impl MotionDb {
         self.styles().any(|db| !db.extra.is_empty())
     }
 
-    /// The idles, the best first.
+    /// The idles, the best first; they are the first actions.
     pub fn idles(&self) -> impl Iterator<Item = &Action> {
-        self.actions.iter().filter(|action| action.kind == ActionKind::Idle)
+        self.actions.iter().take_while(|action| action.kind == ActionKind::Idle)
     }
 
     /// Rotations of the extra joints in the two frames of an action next to a time from its first frame, s, and the

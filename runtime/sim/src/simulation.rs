@@ -31,7 +31,7 @@ use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
-use crate::population::{Population, drawn_stature};
+use crate::population::{AgentLife, Population};
 use crate::recording::frame::AgentFrame;
 use crate::recording::frame_packing::recorded_offset_rad;
 use crate::route::braking::Braking;
@@ -129,10 +129,10 @@ impl Simulation {
         let context = |db| SynthesisContext::new(db, params.clone());
         let contexts: Vec<SynthesisContext> = std::iter::once(db).chain(databases).map(context).collect();
         let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
-        for (index, spec) in scenario.agents.iter().enumerate() {
+        let population = Population::of(scenario);
+        for (index, AgentLife { spec, stature, .. }) in population.agents.iter().enumerate() {
             Self::add_behaviour(&mut crowd, scenario, spec);
-            let (id, context) = (index.into(), context_of(&contexts, spec.style));
-            agents.push(id, spec, drawn_stature(scenario, id, spec), scenario, context);
+            agents.push(index.into(), spec, *stature, scenario, context_of(&contexts, spec.style));
         }
         let (routes, route_error) = match DoorRoutes::new(scenario) {
             Ok(routes) => (routes, None),
@@ -149,7 +149,7 @@ impl Simulation {
             constraints: contexts.iter().map(|context| MotionConstraints::new(&context.db.velocity_hull)).collect(),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
-            population: Population::of(scenario),
+            population,
             sources: SourceState::all(scenario),
             scenario: scenario.clone(),
             agents,

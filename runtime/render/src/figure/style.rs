@@ -107,9 +107,9 @@ pub(crate) struct BodySize {
     pub(crate) deviation: f32,
 }
 
-/// Share of men among people whose size deviates from the usual one by a factor: of two normal
-/// distributions whose means are 8.4 % apart and whose deviations are 4.2 %, as in the United States (Fryar et al. 2021,
-/// *Vital Health Stat.* 3(46)).
+/// Share of men among people whose size deviates from the usual one by a factor: of two normal distributions whose means
+/// are 8.4 % apart and whose deviations are 4.2 %, as in the United States (Fryar et al. 2021, *Vital Health Stat.*
+/// 3(46)).
 fn male_share(deviation: f32) -> f64 {
     1.0 / (1.0 + libm::exp(-0.084 / (0.042 * 0.042) * f64::from(deviation - 1.0)))
 }

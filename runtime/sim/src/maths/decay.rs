@@ -1,5 +1,5 @@
-//! e^(−x), a soft maximum and a smooth step for inner loops: without branches, tables or calls, so the compiler emits vector
-//! instructions.
+//! e^(−x), a soft maximum and a smooth step for inner loops: without branches, tables or calls, so the compiler emits
+//! vector instructions.
 //!
 //! All operations are rounded exactly by IEEE 754, so every machine gives the same bits.
 

@@ -20,8 +20,9 @@
 //!    offset is added;
 //! 9. `traits`, `look_at`, `squeeze`, `lean`, `secondary_motion`: the upper body moves as this agent does; head and
 //!    chest turn; shoulders turn where room is narrow; the body leans;
-//! 10. `weight_shift`, `centring`, `foot_room`, `foot_lock`, `pelvis`: the weight shifts before a first step; swinging feet move
-//!     back towards the elbow room, planted ones are locked, and the pelvis drops where a leg would not reach;
+//! 10. `centring`, `weight_shift`, `foot_room`, `foot_lock`, `pelvis`: the pelvis of a standing body moves over its feet,
+//!     and over one of them before a first step; swinging feet move back towards the elbow room, planted ones are locked,
+//!     and the pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet;
 //! 12. `body_clearance`: trunk and arms keep within the elbow room that walls and other bodies leave.
 //!

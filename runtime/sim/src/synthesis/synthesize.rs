@@ -9,7 +9,7 @@ use motiondb::motion::wrapped;
 use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
 use crate::synthesis::command::CommandState;
-use crate::synthesis::hybrid::{ActiveMotion, Inertialization, MotionState};
+use crate::synthesis::hybrid::{ActiveMotion, Inertialization, Moment, MotionState};
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 use crate::synthesis::pose::{
     BodyClearance, Centring, ContactState, ExcessLean, FootMotion, LookAt, Posture, SecondaryMotion, Squeeze,
@@ -73,8 +73,8 @@ impl Body {
         // All is done in the frame of the root under the drawn body.
         let (skeleton, frame) = (&context.db.skeleton, motion.drawn_root(root).frame());
         let room = room.seen_from(frame.position_m, frame.forward);
-        let active = motion.active(context);
-        let mut posture = active_posture(motion, &active, context);
+        let moment = motion.now(context);
+        let mut posture = moment_posture(&moment, &motion.inertialization, context);
         inertialize(&mut posture, &motion.inertialization, skeleton);
         motion.traits.pitch(&mut posture.pose);
         look_at.turn(&mut posture.pose, skeleton);
@@ -85,7 +85,7 @@ impl Body {
         let stands = command.step_state.stands && motion.mode == Mode::Blending;
         posture.shift(centring.follow(stands, &contact.locks, &frame, step));
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step) * Vec2::Y);
-        let mut contacts_ahead = contacts_ahead(&active, motion, context);
+        let mut contacts_ahead = contacts_ahead(&moment.active, motion, context);
         contact.settling.follow(stands, &posture.contacts, &contact.locks, step.dt_s);
         contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
         let feet = FootMotion {
@@ -102,7 +102,7 @@ impl Body {
         motion.has_jumped = false;
         let (posture, soles_m) = in_root_frame(posture, soles_m, &frame, &root.frame());
         let mut output =
-            output(&active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context);
+            output(&moment.active, [motion.phase, motion.timing.pace], &posture, &soles_m, &root.frame(), context);
         if let (Some(foot), Some((_, left_s))) = (&mut output.stance.foot, contact.settling.swing()) {
             foot.time_to_landing_s = foot.time_to_landing_s.max(left_s);
         }
@@ -110,15 +110,9 @@ impl Body {
     }
 }
 
-/// The posture of the active motion; its legs are bent where a pose difference is to be added.
-fn active_posture(motion: &MotionState, active: &ActiveMotion, context: &SynthesisContext) -> Posture {
-    let mut posture = if motion.inertialization.is_active() {
-        active.bent_posture(context, motion.phase)
-    } else {
-        active.posture(context, motion.phase)
-    };
-    active.swing_arms(&mut posture.pose, motion.traits.arm_swing, context);
-    posture
+/// The posture of the drawn motion; its legs are bent where a pose difference is to be added.
+fn moment_posture(moment: &Moment, inertialization: &Inertialization, context: &SynthesisContext) -> Posture {
+    if inertialization.is_active() { moment.bent_posture(context) } else { moment.posture(context) }
 }
 
 /// Adds the pose difference that a switch has left. Feet that it keeps off the ground have no contact.

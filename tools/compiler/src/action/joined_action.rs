@@ -1,6 +1,7 @@
 //! CutAction → JoinedAction: the examples at both ends, and the root between them.
 //!
-//! The root of an idle rests where that of a standing example does ([`crate::cycle::standing_cycle`]). World frame in, root frame out: metres, radians.
+//! The root of an idle rests where that of a standing example does ([`crate::cycle::standing_cycle`]). World frame in, root
+//! frame out: metres, radians.
 
 use glam::DVec2;
 use motiondb::motion::ActionKind;

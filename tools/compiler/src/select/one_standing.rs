@@ -12,17 +12,15 @@ pub(crate) fn one_standing(mut selected: SelectedCycles, idles: &[CutAction], bo
     let cycles = &selected.cycles;
     let standing = (0..cycles.len()).filter(|&index| !cycles[index].cycle.steps);
     let ranked: Vec<(usize, f64)> = standing.map(|index| (index, cycles[index].rank(body))).collect();
-    let best = ranked.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| *index);
-    for &(index, _) in ranked.iter().filter(|(index, _)| Some(*index) != best) {
-        let source = cycles[index].source;
-        if let (Some(best), true) = (best, idles.iter().all(|idle| idle.source != source)) {
-            let note =
-                Note::CoincidentExample { example: cycles[index].name.clone(), blended: cycles[best].name.clone() };
-            selected.sources[source as usize].diagnostics.push(Diagnostic::Note(note));
-        }
+    let Some(&(best, _)) = ranked.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else { return selected };
+    let gives_idle = |source: u32| idles.iter().any(|idle| idle.source == source);
+    let others = ranked.iter().filter(|(index, _)| *index != best).map(|(index, _)| &cycles[*index]);
+    for other in others.filter(|other| !gives_idle(other.source)) {
+        let note = Note::CoincidentExample { example: other.name.clone(), blended: cycles[best].name.clone() };
+        selected.sources[other.source as usize].diagnostics.push(Diagnostic::Note(note));
     }
     let mut index = 0..;
-    selected.cycles.retain(|named| index.next() == best || named.cycle.steps);
+    selected.cycles.retain(|named| index.next() == Some(best) || named.cycle.steps);
     selected
 }
 

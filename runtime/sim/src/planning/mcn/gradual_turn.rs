@@ -9,8 +9,8 @@
 //! ```
 //!
 //! where α is the angle to the preferred facing and v the body's speed. A body that cannot step aside goes only where it
-//! faces; it turns for any angle, and sooner: d_0 = 0, and a greater s_1. t, from 0 to 1, is how much an agent turns before it
-//! walks ([`crate::planning::mcn::turn_first`]): quickly, as people turn on the spot. World axes, m/s, radians.
+//! faces; it turns for any angle, and sooner: d_0 = 0, and a greater s_1. An agent that turns before it walks turns
+//! quickly; t, from 0 to 1, is how much it does ([`crate::planning::mcn::turn_first`]). World axes, m/s, radians.
 
 use glam::Vec2;
 
@@ -24,17 +24,15 @@ const SHARE_PER_MPS_AHEAD: f32 = 0.5;
 const AHEAD_AT_REST_RAD: f32 = 0.35;
 /// a_1: how much that angle grows with the speed, rad/(m/s).
 const AHEAD_RAD_PER_MPS: f32 = 0.15;
-
 /// a_2: how much that angle grows for an agent that turns before it walks, rad; with a_0 a body turns at 130 °/s.
 const AHEAD_TURNING_RAD: f32 = 0.35;
-
 /// d_0: angle to the preferred facing for which a standing body does not turn, rad: 17°.
 const TOLERANCE_AT_REST_RAD: f32 = 0.3;
 /// v_0: speed from which on a body turns for any angle, m/s.
 const TURNS_AT_MPS: f32 = 0.6;
 
-/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: on the way to `facing`, where it turns before
-/// it walks by a share `turning`. Unit vectors.
+/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: between both, towards `facing`. `turning`
+/// is t. Unit vectors.
 pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_aside: bool, turning: f32) -> Vec2 {
     let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
     let tolerance_rad =

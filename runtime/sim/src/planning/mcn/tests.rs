@@ -286,7 +286,7 @@ fn an_agent_at_rest_presses_on_except_in_a_queue() {
 }
 
 #[test]
-fn an_agent_that_stands_turns_to_its_way_before_it_walks() {
+fn an_agent_that_stands_turns_to_its_route_before_it_walks() {
     let mut aside = alone(WALK.perp());
     aside.velocities_mps[0] = Vec2::ZERO;
     check_switch(&aside, &alone(WALK), |parts| parts.turn_first = false);

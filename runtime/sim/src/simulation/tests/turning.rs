@@ -1,4 +1,4 @@
-//! Claims about agents whose way lies behind them.
+//! Claims about agents whose route leads back.
 
 use glam::Vec2;
 

@@ -60,8 +60,7 @@ impl StepState {
     pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, stopping_s: 0.0 };
 
     /// Follows what the examples reach of the command, with hysteresis. `comes_to_rest` states whether the command will
-    /// rest by the end of a step, `feet_planted` whether both feet are. Returns whether the body starts to
-    /// step.
+    /// rest by the end of a step, `feet_planted` whether both feet are. Returns whether the body starts to step.
     pub(crate) fn follow(&mut self, reachable: &Reachable, comes_to_rest: bool, feet_planted: bool, dt_s: f32) -> bool {
         let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
         let may_change = self.duration_s >= STATE_DURATION_S;

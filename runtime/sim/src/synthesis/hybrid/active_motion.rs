@@ -34,15 +34,6 @@ pub(crate) enum ActiveMotion<'a> {
 }
 
 impl ActiveMotion<'_> {
-    /// The pose with its legs bent to the targets of the feet.
-    pub(crate) fn bent_posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
-        let mut posture = self.posture(context, phase);
-        if let Self::SemiProcedural(_) = self {
-            posture.bend_legs(&context.db.skeleton);
-        }
-        posture
-    }
-
     /// The pose and the targets of its feet. The legs may not have bent yet: locks move the feet first.
     pub(crate) fn posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
         let db = &context.db;

@@ -8,7 +8,7 @@
 
 use glam::Quat;
 use motiondb::body::Pose;
-use motiondb::motion::{Action, ActionKind, MotionDb};
+use motiondb::motion::{Action, MotionDb};
 
 use crate::maths::decay::smooth_step;
 use crate::maths::random::SplitMix64;
@@ -61,16 +61,16 @@ impl IdleClock {
     /// Advances by a duration in which the body stands or steps.
     pub(crate) fn advance(&mut self, db: &MotionDb, stands: bool, duration_s: f32) {
         self.play(db, duration_s);
-        let count = idle_count(db) as u32;
+        let count = db.idles().count() as u32;
         if count < 2 {
             return;
         }
         let changes = self.since_change_s < CHANGE_S;
         if !stands {
             self.has_stepped = true;
-            let home = idle_of_standing(db);
-            if !changes && self.current.idle != home {
-                self.change_to(PlayedIdle { idle: home, ..self.current });
+            let idle = idle_of_standing(db);
+            if !changes && self.current.idle != idle {
+                self.change_to(PlayedIdle { idle, ..self.current });
             }
             return;
         }
@@ -139,7 +139,7 @@ impl IdleClock {
 impl PlayedIdle {
     /// An idle and a time in it, by a draw from [0, 1).
     fn drawn(db: &MotionDb, draw: f32) -> Self {
-        let count = idle_count(db);
+        let count = db.idles().count();
         let position = draw * count as f32;
         let idle = (position as usize).min(count.saturating_sub(1));
         let time_s = (position - idle as f32) * db.actions.get(idle).map_or(0.0, Action::duration_s);
@@ -147,7 +147,7 @@ impl PlayedIdle {
     }
 
     fn action<'a>(&self, db: &'a MotionDb) -> Option<&'a Action> {
-        db.actions.get(self.idle as usize).filter(|action| action.kind == ActionKind::Idle)
+        db.idles().nth(self.idle as usize)
     }
 
     /// Moves the time by a duration, negative for an earlier time; the idle begins again at its end.
@@ -169,11 +169,6 @@ impl PlayedIdle {
     }
 }
 
-/// Number of idles; they come first among the actions.
-fn idle_count(db: &MotionDb) -> usize {
-    db.actions.iter().take_while(|action| action.kind == ActionKind::Idle).count()
-}
-
 /// Index of the idle that is of one clip with the standing example, otherwise of the best one.
 fn idle_of_standing(db: &MotionDb) -> u32 {
     let is_of_standing = |idle: &Action| idle.source == db.examples[idle.entry.example as usize].source;
@@ -187,7 +182,7 @@ mod tests {
 
     use glam::Vec2;
     use motiondb::body::Root;
-    use motiondb::motion::{ActionEnd, ActionFrame};
+    use motiondb::motion::{ActionEnd, ActionFrame, ActionKind};
 
     use super::*;
     use crate::planning::plan::Plan;

@@ -22,5 +22,6 @@ pub(crate) mod switching;
 pub(crate) use active_motion::ActiveMotion;
 pub use extra_state::ExtraState;
 pub(crate) use inertialization::Inertialization;
+pub(crate) use motion_state::Moment;
 pub use motion_state::MotionState;
 pub use pose_smoothing::SmoothedMotion;

@@ -3,7 +3,7 @@
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
 use glam::Vec2;
-use motiondb::body::{Pose, Root};
+use motiondb::body::Root;
 use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::blending::example_mix::advanced_phase;
@@ -18,6 +18,7 @@ use crate::synthesis::hybrid::mode_selection::ModeSelection;
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
 use crate::synthesis::hybrid::step_timing::{GaitTiming, StepTiming};
+use crate::synthesis::pose::Posture;
 use crate::synthesis::pose::lean::balance::{balanced_lean_rad, lean_in_curve_rad};
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
@@ -65,11 +66,20 @@ pub(crate) struct Moment<'a> {
 }
 
 impl Moment<'_> {
-    /// The pose with its legs bent to the targets of the feet.
-    pub(crate) fn pose(&self, context: &SynthesisContext) -> Pose {
-        let mut pose = self.active.bent_posture(context, self.phase).pose;
-        self.active.swing_arms(&mut pose, self.arm_swing, context);
-        pose
+    /// The pose and the targets of its feet; the arms swing as this body's. The legs may not have bent yet.
+    pub(crate) fn posture(&self, context: &SynthesisContext) -> Posture {
+        let mut posture = self.active.posture(context, self.phase);
+        self.active.swing_arms(&mut posture.pose, self.arm_swing, context);
+        posture
+    }
+
+    /// The posture with its legs bent to the targets of the feet.
+    pub(crate) fn bent_posture(&self, context: &SynthesisContext) -> Posture {
+        let mut posture = self.posture(context);
+        if let ActiveMotion::SemiProcedural(_) = self.active {
+            posture.bend_legs(&context.db.skeleton);
+        }
+        posture
     }
 }
 
@@ -112,6 +122,11 @@ impl MotionState {
     /// The active motion at the present phase, as it is drawn.
     pub(crate) fn active<'a>(&self, context: &'a SynthesisContext) -> ActiveMotion<'a> {
         self.drawn(context, &self.smoothed[0], self.idle, self.phase)
+    }
+
+    /// The drawn motion now.
+    pub(crate) fn now<'a>(&self, context: &'a SynthesisContext) -> Moment<'a> {
+        Moment { active: self.active(context), phase: self.phase, arm_swing: self.traits.arm_swing }
     }
 
     /// The active motion, drawn from a mix, an idle and a phase.
@@ -180,8 +195,7 @@ impl MotionState {
     }
 
     /// Advances the phase over one step, at a factor on its rate, while the motion moves toward a target; the pace and
-    /// the lead of the steps follow. `stops` states whether the body stops where its swinging foot
-    /// lands.
+    /// the lead of the steps follow. `stops` states whether the body stops where its swinging foot lands.
     pub(crate) fn take_steps(
         &mut self,
         root: &Root,

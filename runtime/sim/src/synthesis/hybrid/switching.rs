@@ -176,22 +176,21 @@ impl MotionState {
         change(self);
         self.has_jumped = true;
         let new = self.moments(context, step);
-        let [old_poses, new_poses] = [&old, &new].map(|moments| moments.each_ref().map(|moment| moment.pose(context)));
+        let [old_poses, new_poses] =
+            [&old, &new].map(|moments| moments.each_ref().map(|moment| moment.bent_posture(context).pose));
         self.inertialization.begin(old_poses.each_ref(), new_poses.each_ref(), step.look_back_s);
         extra.begin(&old, &new, context, step.look_back_s);
     }
 
     /// The drawn motion, now and [`TimeStep::look_back_s`] before.
     fn moments<'a>(&self, context: &'a SynthesisContext, step: &TimeStep) -> [Moment<'a>; 2] {
-        let active = self.active(context);
-        let earlier_phase =
-            wrapped(self.phase - step.look_back_s * self.timing.pace * active.phase_rate_hz(context, self.phase));
+        let now = self.now(context);
+        let rate_hz = now.active.phase_rate_hz(context, self.phase);
+        let phase = wrapped(self.phase - step.look_back_s * self.timing.pace * rate_hz);
         let [smoothed, before] = &self.smoothed;
         let smoothed = smoothed.earlier(before, step);
         let earlier_idle = self.idle.earlier(&context.db, step.look_back_s);
-        let earlier = self.drawn(context, &smoothed, earlier_idle, earlier_phase);
-        let arm_swing = self.traits.arm_swing;
-        let now = Moment { active, phase: self.phase, arm_swing };
-        [now, Moment { active: earlier, phase: earlier_phase, arm_swing }]
+        let earlier = Moment { active: self.drawn(context, &smoothed, earlier_idle, phase), phase, ..now };
+        [now, earlier]
     }
 }

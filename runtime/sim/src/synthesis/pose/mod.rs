@@ -4,7 +4,8 @@
 //!
 //! Read `leg`, `leg_length`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_room`,
 //! `leg_clearance`, `settling_step`, `foot_lock`, all held by `contact_state`. `weight_shift` moves the pelvis before a
-//! first step, `centring` over the feet of a standing body; `lean` tilts the body where it accelerates; `upper_body` holds what trunk, head and arms do.
+//! first step, `centring` over the feet of a standing body; `lean` tilts the body where it accelerates; `upper_body` holds
+//! what trunk, head and arms do.
 
 pub(crate) mod centring;
 pub(crate) mod contact_state;
