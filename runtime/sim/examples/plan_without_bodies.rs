@@ -24,6 +24,7 @@ use motiondb::velocity_sets::velocity_hull::{self, Construction};
 
 const AGENTS: usize = 17;
 const RADIUS_M: f32 = 0.25;
+const PREFERRED_SPEED_MPS: f32 = 1.33;
 const DT_S: f32 = 0.1;
 
 /// Gaits of a body: speed, turn rate and side speed.
@@ -55,6 +56,7 @@ fn main() {
         obstacles: &obstacles,
         keep: KeepSide::Right,
         braking: Braking::Within(DT_S),
+        coasting_mps: Vec2::ZERO,
     };
     let mut positions_m: Vec<Vec2> = agents.iter().map(|agent| agent.position_m).collect();
     let mut velocities_mps = vec![Vec2::ZERO; AGENTS];
@@ -80,6 +82,7 @@ fn main() {
             radii_m: &[RADIUS_M; AGENTS],
             wall_radii_m: &[WALL_RADIUS_M; AGENTS],
             preferred_mps: &preferred_mps,
+            free_speeds_mps: &[PREFERRED_SPEED_MPS; AGENTS],
             facing_offsets_rad: &[0.0; AGENTS],
             stances: &[Stance::default(); AGENTS],
             planned_mps: &velocities_mps,
@@ -121,7 +124,7 @@ fn on_circle(index: usize) -> AgentSpec {
         goals_m: vec![-position_m],
         radius_m: RADIUS_M,
         wall_radius_m: WALL_RADIUS_M,
-        preferred_speed_mps: 1.33,
+        preferred_speed_mps: PREFERRED_SPEED_MPS,
         ..AgentSpec::default()
     }
 }

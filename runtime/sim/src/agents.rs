@@ -56,6 +56,8 @@ pub struct Agents {
     pub closed_zones: Vec<u32>,
     /// Right of way in the present state.
     pub priorities: Vec<f32>,
+    /// Speed that the agent prefers on a free path, as in [`AgentSpec`], m/s.
+    pub free_speeds_mps: Vec<f32>,
     /// Style of the body's motion, as in [`AgentSpec`]: index of its synthesis context.
     pub styles: Vec<u32>,
     /// How far each has got on its way.
@@ -102,6 +104,7 @@ macro_rules! for_each_array {
             wall_radii_m,
             closed_zones,
             priorities,
+            free_speeds_mps,
             styles,
             progress,
             route_memory,
@@ -153,6 +156,7 @@ impl Agents {
         self.wall_radii_m.push(spec.wall_radius_m);
         self.closed_zones.push(spec.closed_zones);
         self.priorities.push(spec.priority);
+        self.free_speeds_mps.push(spec.preferred_speed_mps);
         self.styles.push(spec.style);
         self.progress.push(PathProgress::default());
         self.route_memory.push(RouteMemory::default());

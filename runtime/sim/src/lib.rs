@@ -60,6 +60,7 @@
 //!     radii_m: &radii_m,
 //!     wall_radii_m: &[0.2; 2],
 //!     preferred_mps: &velocities_mps,
+//!     free_speeds_mps: &[1.3; 2],
 //!     facing_offsets_rad: &[0.0; 2],
 //!     stances: &[Stance::default(); 2],
 //!     planned_mps: &velocities_mps,

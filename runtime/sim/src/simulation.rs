@@ -19,7 +19,7 @@
 
 use std::sync::Arc;
 
-use glam::Quat;
+use glam::{Quat, Vec2};
 use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
@@ -34,7 +34,7 @@ use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
 use crate::population::{AgentLife, Population};
 use crate::recording::frame::AgentFrame;
 use crate::recording::frame_packing::recorded_offset_rad;
-use crate::route::braking::Braking;
+use crate::route::braking::{Braking, coasting_mps};
 use crate::route::door_routes::{ClosedDoors, DoorRoutes};
 use crate::route::mesh::RouteError;
 use crate::route::path::RouteView;
@@ -241,8 +241,9 @@ impl Simulation {
         let Self { agents, population, obstacles, zone_walls, state_zones, routes, doors, crowd, steps, .. } = self;
         let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
         let red = doors.is_any_red().then_some(red);
-        // `braking` is a placeholder: that of each agent is set below, by its velocity.
-        let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking: Braking::Not };
+        let (routes_now, braking) = (routes.present(), Braking::of(coupling, dt_s));
+        // `coasting_mps` is a placeholder: that of each agent is set below.
+        let view = RouteView { routes: routes_now, doors: red, obstacles, keep, braking, coasting_mps: Vec2::ZERO };
         let passing = doors.passing(agents);
         let view_passing = RouteView { routes: routes.all_open(), doors: None, ..view };
         let Agents { ids, removals, positions_m, velocities_mps, closed_zones, progress, route_memory, .. } = agents;
@@ -261,7 +262,7 @@ impl Simulation {
             let has_begun = life.begins_at(dt_s) <= *steps;
             let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
             let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
-            let view = &RouteView { obstacles, braking: Braking::of(coupling, *velocity_mps, dt_s), ..*view };
+            let view = &RouteView { obstacles, coasting_mps: coasting_mps(coupling, *velocity_mps), ..*view };
             let motion = if has_begun { walker.preferred_motion(view, progress, memory) } else { Default::default() };
             let (preferred_mps, facing_offset_rad) = preferred;
             *preferred_mps = motion.velocity_mps;
@@ -280,6 +281,7 @@ impl Simulation {
             radii_m: &agents.radii_m,
             wall_radii_m: &agents.wall_radii_m,
             preferred_mps: &agents.preferred_mps,
+            free_speeds_mps: &agents.free_speeds_mps,
             facing_offsets_rad: &agents.facing_offsets_rad,
             stances: &agents.stances,
             planned_mps: &agents.planned_mps,

@@ -41,6 +41,7 @@ use crate::world::one_way::OneWayZone;
 ///     radii_m: &[0.25],
 ///     wall_radii_m: &[0.2],
 ///     preferred_mps: &[walk_mps],
+///     free_speeds_mps: &[1.3],
 ///     facing_offsets_rad: &[0.0],
 ///     stances: &[Stance::default()],
 ///     planned_mps: &[walk_mps],
@@ -74,6 +75,8 @@ pub struct WorldView<'a> {
     pub wall_radii_m: &'a [f32],
     /// v_pref, m/s.
     pub preferred_mps: &'a [Vec2],
+    /// Speeds that agents prefer on a free path, m/s.
+    pub free_speeds_mps: &'a [f32],
     /// Angles from v_pref to the direction of the route, which agents face, counter-clockwise, rad.
     pub facing_offsets_rad: &'a [f32],
     /// How each body stands.

@@ -10,17 +10,14 @@ pub(crate) const BRAKING_MPS2: f32 = 1.0;
 const STOPPING_TIME_S: f32 = 0.5;
 /// Time for which a body goes on at its speed beyond the point where its agent prefers to rest, s: plans lag behind v_pref,
 /// and the feet close (docs/tuning.md).
-pub(crate) const COAST_S: f32 = 0.2;
+pub(crate) const COAST_S: f32 = 0.16;
 
 /// How an agent slows down before its last goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Braking {
     /// As a body can: evenly, and so early that it rests at the goal after it has coasted; then it stays until it is
     /// pushed away.
-    Evenly {
-        /// Velocity at which the body coasts once v_pref is 0, world, m/s; 0 of a disc that stops at once.
-        velocity_mps: Vec2,
-    },
+    Evenly,
     /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
     /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
@@ -29,19 +26,23 @@ pub enum Braking {
 }
 
 impl Braking {
-    /// How an agent at a velocity slows down, by the coupling of its simulation, in steps of `dt_s`.
-    pub(crate) fn of(coupling: Coupling, velocity_mps: Vec2, dt_s: f32) -> Self {
+    /// How agents slow down, by the coupling of their simulation, in steps of `dt_s`.
+    pub(crate) fn of(coupling: Coupling, dt_s: f32) -> Self {
         match coupling {
-            Coupling::TwoWay => Self::Evenly { velocity_mps },
-            Coupling::Decoupled => Self::Evenly { velocity_mps: Vec2::ZERO },
+            Coupling::TwoWay | Coupling::Decoupled => Self::Evenly,
             Coupling::Discs => Self::Within(dt_s),
         }
     }
+}
 
-    /// Distance that the body still moves in a direction after v_pref is 0, m.
-    pub(crate) fn coast_m(self, direction: Vec2) -> f32 {
-        if let Self::Evenly { velocity_mps } = self { COAST_S * velocity_mps.dot(direction).max(0.0) } else { 0.0 }
-    }
+/// Velocity that an agent keeps until it responds to a new v_pref, m/s: that of its body; 0 of a disc.
+pub(crate) fn coasting_mps(coupling: Coupling, velocity_mps: Vec2) -> Vec2 {
+    if coupling == Coupling::TwoWay { velocity_mps } else { Vec2::ZERO }
+}
+
+/// Distance that an agent at a coasting velocity still moves in a direction after v_pref is 0, m.
+pub(crate) fn coasted_m(coasting_mps: Vec2, direction: Vec2) -> f32 {
+    COAST_S * coasting_mps.dot(direction).max(0.0)
 }
 
 /// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.

@@ -6,7 +6,7 @@
 
 use glam::Vec2;
 
-use crate::route::braking::{Braking, braking_speed_mps};
+use crate::route::braking::{Braking, braking_speed_mps, coasted_m};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, RouteMemory};
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
@@ -44,7 +44,7 @@ impl PathProgress {
     }
 }
 
-/// What the route of an agent depends on, apart from the agent.
+/// What the route of an agent depends on, apart from its specification.
 #[derive(Clone, Copy, Debug)]
 pub struct RouteView<'a> {
     /// Routes around the walls, through the doors that are open.
@@ -57,6 +57,8 @@ pub struct RouteView<'a> {
     pub keep: KeepSide,
     /// How agents slow down before their last goals.
     pub braking: Braking,
+    /// Velocity that the agent keeps until it responds to a new v_pref, world, m/s: that of its body; 0 of a disc.
+    pub coasting_mps: Vec2,
 }
 
 impl RouteView<'_> {
@@ -119,7 +121,7 @@ impl PreferredMotion {
 ///
 /// 1. no goals, or the last one reached: stay;
 /// 2. a wall before the next waypoint: around it (`steering`);
-/// 3. before a waypoint that is not the last: towards it, rounding it;
+/// 3. before a waypoint that is not the last: towards it, rounding it, or braking where the turn is too sharp;
 /// 4. before the last: towards it, braking.
 pub fn preferred_motion(
     agent: &AgentSpec,
@@ -137,14 +139,16 @@ pub fn preferred_motion(
     let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next(agent, position_m, goal_m, memory);
     let corner = view.next([position_m, goal_m], wall_radius_m, memory, query);
     let stretch = Stretch { position_m, goal_m, corner, speed_mps, wall_radius_m };
-    progress.arrived = to_last && stretch.has_arrived(progress.arrived, view.braking);
+    progress.arrived = to_last && stretch.has_arrived(progress.arrived, view);
     if let Some(motion) = stretch.around_walls(view) {
         return motion;
     }
     if !to_last {
-        return PreferredMotion::ahead(RoundedWaypoint::new(agent, next).direction(position_m) * speed_mps);
+        let waypoint = RoundedWaypoint::new(agent, next);
+        let speed_mps = if waypoint.is_rounded() { speed_mps } else { stretch.speed_before_turn_mps(view) };
+        return PreferredMotion::ahead(waypoint.direction(position_m, view.coasting_mps) * speed_mps);
     }
-    stretch.to_goal(view.braking, progress.arrived)
+    stretch.to_goal(view, progress.arrived)
 }
 
 /// The motion towards a goal that is not a waypoint, around walls; `arrived` states whether the agent stands there.
@@ -160,8 +164,8 @@ pub(crate) fn motion_towards(
     let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(class, position_m, goal, memory);
     let corner = view.next([position_m, goal_m], wall_radius_m, memory, query);
     let stretch = Stretch { position_m, goal_m, corner, speed_mps, wall_radius_m };
-    *arrived = stretch.has_arrived(*arrived, view.braking);
-    stretch.around_walls(view).unwrap_or_else(|| stretch.to_goal(view.braking, *arrived))
+    *arrived = stretch.has_arrived(*arrived, view);
+    stretch.around_walls(view).unwrap_or_else(|| stretch.to_goal(view, *arrived))
 }
 
 /// What is left of an agent's path to its next goal.
@@ -179,8 +183,8 @@ struct Stretch {
 impl Stretch {
     /// Whether the agent stands at its goal or comes to rest there, with no wall before it, and not much nearer to a wall than
     /// the goal. `arrived` states whether it had arrived before.
-    fn has_arrived(&self, arrived: bool, braking: Braking) -> bool {
-        let comes_m = || (GOAL_RADIUS_M + self.coast_m(braking)).min(GOAL_LEFT_RADIUS_M);
+    fn has_arrived(&self, arrived: bool, view: &RouteView) -> bool {
+        let comes_m = || (GOAL_RADIUS_M + self.coast_m(view)).min(GOAL_LEFT_RADIUS_M);
         let radius_m = if arrived { GOAL_LEFT_RADIUS_M } else { comes_m() };
         let can_rest = |corner: &NextCorner| corner.after_m.is_none() && !self.leans_on_wall(corner);
         self.corner.as_ref().is_none_or(can_rest) && self.goal_m.distance(self.position_m) < radius_m
@@ -193,8 +197,10 @@ impl Stretch {
         is_goal_on_mesh && off_mesh_m > LEANS_M
     }
 
-    fn coast_m(&self, braking: Braking) -> f32 {
-        braking.coast_m((self.goal_m - self.position_m).normalize_or_zero())
+    /// Distance that the agent coasts towards the goal, m; 0 where it does not rest there.
+    fn coast_m(&self, view: &RouteView) -> f32 {
+        let rests = view.braking == Braking::Evenly;
+        if rests { coasted_m(view.coasting_mps, (self.goal_m - self.position_m).normalize_or_zero()) } else { 0.0 }
     }
 
     /// The motion around the walls before the goal; none where it is in sight.
@@ -204,12 +210,23 @@ impl Stretch {
         Some(PreferredMotion::along(heading, self.speed_mps))
     }
 
+    /// The speed towards a waypoint at which the agent turns too sharply to round it, m/s: a body brakes. It does not rest, so
+    /// what it coasts does not count.
+    fn speed_before_turn_mps(&self, view: &RouteView) -> f32 {
+        match view.braking {
+            Braking::Evenly | Braking::Not => {
+                braking_speed_mps(self.goal_m.distance(self.position_m)).min(self.speed_mps)
+            }
+            Braking::Within(_) => self.speed_mps,
+        }
+    }
+
     /// The motion towards the last goal in sight.
-    fn to_goal(&self, braking: Braking, arrived: bool) -> PreferredMotion {
+    fn to_goal(&self, view: &RouteView, arrived: bool) -> PreferredMotion {
         let to_goal_m = self.goal_m - self.position_m;
-        let speed_mps = match braking {
-            Braking::Evenly { .. } if arrived => 0.0,
-            Braking::Evenly { .. } => braking_speed_mps((to_goal_m.length() - self.coast_m(braking)).max(0.0)),
+        let speed_mps = match view.braking {
+            Braking::Evenly if arrived => 0.0,
+            Braking::Evenly => braking_speed_mps((to_goal_m.length() - self.coast_m(view)).max(0.0)),
             Braking::Within(time_s) => to_goal_m.length() / time_s,
             Braking::Not => self.speed_mps,
         };
@@ -240,17 +257,24 @@ mod tests {
 
     /// v_pref on open ground, braking evenly.
     fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
-        braking_on_open_ground_mps(agent, position_m, Braking::Evenly { velocity_mps: Vec2::ZERO }, progress)
+        coasting_on_open_ground_mps(agent, position_m, Vec2::ZERO, progress)
     }
 
-    fn braking_on_open_ground_mps(
+    fn coasting_on_open_ground_mps(
         agent: &AgentSpec,
         position_m: Vec2,
-        braking: Braking,
+        coasting_mps: Vec2,
         progress: &mut PathProgress,
     ) -> Vec2 {
         let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
-        let view = RouteView { routes: &routes, doors: None, obstacles: &obstacles, keep: KeepSide::Right, braking };
+        let view = RouteView {
+            routes: &routes,
+            doors: None,
+            obstacles: &obstacles,
+            keep: KeepSide::Right,
+            braking: Braking::Evenly,
+            coasting_mps,
+        };
         preferred_motion(agent, position_m, &view, progress, &mut RouteMemory::default()).velocity_mps
     }
 
@@ -294,6 +318,16 @@ mod tests {
     }
 
     #[test]
+    fn bodies_brake_before_a_sharp_turn_alone() {
+        let speed_mps = |after_m: Vec2| {
+            let agent = agent(&[Vec2::new(3.0, 0.0), after_m]);
+            on_open_ground_mps(&agent, Vec2::new(2.4, 0.0), &mut PathProgress::default()).length()
+        };
+        let [sharp_mps, right_mps] = [Vec2::new(-2.0, 0.3), Vec2::new(3.0, 4.0)].map(speed_mps);
+        assert!(sharp_mps < 1.0 && (right_mps - 1.3).abs() < 1e-5, "{sharp_mps} {right_mps}");
+    }
+
+    #[test]
     fn speed_falls_evenly_before_the_goal() {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, PathProgress::default(), 1.3, 0.01);
@@ -310,8 +344,7 @@ mod tests {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let moved = |left_m: f32, velocity_mps: Vec2, arrived: bool| {
             let (position_m, mut progress) = (Vec2::new(5.0 - left_m, 0.0), PathProgress { next: 0, arrived });
-            let braking = Braking::Evenly { velocity_mps };
-            (braking_on_open_ground_mps(&agent, position_m, braking, &mut progress).x, progress.arrived)
+            (coasting_on_open_ground_mps(&agent, position_m, velocity_mps, &mut progress).x, progress.arrived)
         };
         let coast_m = COAST_S * 1.25;
         let along = |left_m: f32| moved(left_m, Vec2::new(1.25, 0.6), false);
@@ -355,7 +388,8 @@ mod tests {
             doors: None,
             obstacles: &obstacles,
             keep: KeepSide::Right,
-            braking: Braking::Evenly { velocity_mps: Vec2::ZERO },
+            braking: Braking::Evenly,
+            coasting_mps: Vec2::ZERO,
         };
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut motion = |x_m, y_m| {

@@ -6,7 +6,7 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::route::braking::{Braking, braking_speed_mps};
+use crate::route::braking::{braking_speed_mps, coasted_m, coasting_mps};
 use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
 
 /// Distance from a closed door at which the disc of an agent stands, m: its feet and arms clear the door.
@@ -58,7 +58,7 @@ impl Simulation {
         if !self.doors.is_any_red() {
             return;
         }
-        let (agents, coupling, dt_s) = (&mut self.agents, self.scenario.coupling, self.scenario.dt_s);
+        let (agents, coupling) = (&mut self.agents, self.scenario.coupling);
         let rank = |index: usize| agents.route_memory[index].door.as_ref().map_or(0, |door| door.rank);
         let waiting = (0..agents.positions_m.len()).filter(|&index| rank(index) > 0).map(|index| Waiting {
             index,
@@ -78,7 +78,7 @@ impl Simulation {
                 // Without a query in this step it does not walk.
                 let Some(free_m) = door.free_m.take().filter(|_| removal.is_none()) else { return };
                 let direction = preferred_mps.normalize_or_zero();
-                let coast_m = Braking::of(coupling, velocity_mps, dt_s).coast_m(direction);
+                let coast_m = coasted_m(coasting_mps(coupling, velocity_mps), direction);
                 let slack_m = if was_waiting { MOVES_UP_M } else { (STOPS_M + coast_m).min(MOVES_UP_M) };
                 let comer = Comer { index, position_m, radius_m, direction, slack_m, coast_m };
                 let (left_m, rank) = crowd.place(&comer, free_m - STAND_OFF_M);

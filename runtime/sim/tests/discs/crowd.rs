@@ -146,6 +146,7 @@ impl DiscCrowd {
         let planned_mps: Vec<Vec2> = self.plans.iter().map(|plan| plan.velocity_mps).collect();
         let strafing_s: Vec<f32> = self.plans.iter().map(|plan| plan.strafing_s).collect();
         let stepping_back_s: Vec<f32> = self.plans.iter().map(|plan| plan.stepping_back_s).collect();
+        let free_speeds_mps: Vec<f32> = self.agents.iter().map(|agent| agent.preferred_speed_mps).collect();
         let world = WorldView {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
@@ -153,6 +154,7 @@ impl DiscCrowd {
             radii_m: &self.radii_m,
             wall_radii_m: &self.radii_m,
             preferred_mps: &preferred_mps,
+            free_speeds_mps: &free_speeds_mps,
             facing_offsets_rad: &vec![0.0; count],
             stances: &vec![Stance::default(); count],
             planned_mps: &planned_mps,
@@ -177,7 +179,7 @@ impl DiscCrowd {
     fn follow_paths(&mut self, setting: &CrowdSetting) -> Vec<Vec2> {
         let braking = match setting.response {
             DiscResponse::Immediate => Braking::Within(setting.dt_s),
-            DiscResponse::Lagging(..) => Braking::Evenly { velocity_mps: Vec2::ZERO },
+            DiscResponse::Lagging(..) => Braking::Evenly,
         };
         let view = RouteView {
             routes: &CrowdRoutes::default(),
@@ -185,6 +187,7 @@ impl DiscCrowd {
             obstacles: setting.walls,
             keep: KeepSide::Right,
             braking,
+            coasting_mps: Vec2::ZERO,
         };
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
         agents

@@ -13,6 +13,9 @@ use crate::planning::world_view::WorldView;
 use crate::world::neighbours::Neighbour;
 use crate::world::neighbours::neighbour_lanes::Lanes;
 
+/// Least deceleration of an agent that wants to stand and that no force moves, m/s² (docs/tuning.md).
+const RESTING_MPS2: f32 = 0.5;
+
 /// Computes v_op into the memory. Returns the density ahead, 1/m.
 ///
 /// 1. v_pref turns to the right of agents that come, and slows down while the body turns to it;
@@ -49,7 +52,13 @@ fn followed_mps(world: &WorldView, agent: usize, params: &McnParams) -> Vec2 {
 
 /// Eq. 9, one explicit step of `dt_s`, with limited acceleration; `forces_mps2` is Σ f_ij + Σ f_iW.
 fn pushed_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, dt_s: f32, params: &McnParams) -> Vec2 {
-    let driving_mps2 = (preferred_mps - velocity_mps) / params.relaxation_s;
+    let change_mps = preferred_mps - velocity_mps;
+    let mut driving_mps2 = change_mps / params.relaxation_s;
+    if preferred_mps == Vec2::ZERO {
+        // By the driving force alone an agent that wants to stand would slow down for ever. Forces still move it.
+        let least_mps2 = (RESTING_MPS2 - forces_mps2.length()).max(0.0);
+        driving_mps2 = driving_mps2.clamp_length_min(least_mps2.min(change_mps.length() / dt_s));
+    }
     let acceleration_mps2 = (driving_mps2 + forces_mps2).clamp_length_max(params.acceleration_max_mps2);
     velocity_mps + dt_s * acceleration_mps2 // Eq. 9
 }
@@ -77,5 +86,24 @@ mod tests {
     fn without_forces_the_driving_force_acts_alone() {
         let pushed_mps = pushed_mps(Vec2::X, Vec2::new(1.0, 0.4), Vec2::ZERO, 0.1, &McnParams::default());
         assert!(pushed_mps.distance(Vec2::new(1.0, 0.1)) < 1e-6);
+    }
+
+    #[test]
+    fn an_agent_that_wants_to_stand_comes_to_rest() {
+        let (dt_s, params) = (0.1, McnParams::default());
+        let slower_mps = |mps: Vec2| pushed_mps(mps, Vec2::ZERO, Vec2::ZERO, dt_s, &params);
+        assert!(slower_mps(Vec2::X).distance(0.8 * Vec2::X) < 1e-5);
+        assert!(slower_mps(0.1 * Vec2::Y).distance(0.05 * Vec2::Y) < 1e-6);
+        assert!(slower_mps(0.04 * Vec2::Y).length() < 1e-6 && slower_mps(Vec2::ZERO) == Vec2::ZERO);
+    }
+
+    #[test]
+    fn an_agent_that_wants_to_stand_gives_way_alike_in_any_step() {
+        let yielded_mps = |dt_s: f32| {
+            let pushed = |mps: Vec2, _| pushed_mps(mps, Vec2::ZERO, 0.3 * Vec2::X, dt_s, &McnParams::default());
+            (0..(3.0 / dt_s) as usize).fold(Vec2::ZERO, pushed).x
+        };
+        let [fine_mps, coarse_mps] = [1.0 / 60.0, 0.1].map(yielded_mps);
+        assert!(fine_mps > 0.1 && (fine_mps - coarse_mps).abs() < 0.01, "{fine_mps} {coarse_mps}");
     }
 }

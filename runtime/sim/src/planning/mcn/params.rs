@@ -31,6 +31,8 @@ pub struct McnParts {
     pub keep_right: bool,
     /// Whether agents that queue hold their place.
     pub queueing: bool,
+    /// Whether agents that brake before a goal, or want to stand, count as slower.
+    pub slowing: bool,
     /// Whether agents that stand in contact, and want to go in different directions, press on.
     pub pressing: bool,
     /// Whether agents whose route leads aside or behind turn before they walk.
@@ -62,6 +64,7 @@ impl Default for McnParts {
             back_pedalling: true,
             keep_right: true,
             queueing: true,
+            slowing: true,
             pressing: true,
             turn_first: true,
         }

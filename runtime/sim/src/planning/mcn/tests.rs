@@ -83,6 +83,7 @@ impl Scene {
             radii_m: &radii_m,
             wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
+            free_speeds_mps: &vec![WALK.x; count],
             facing_offsets_rad: &vec![0.0; count],
             stances: &self.stances,
             planned_mps: &self.velocities_mps,
@@ -270,6 +271,24 @@ fn an_agent_holds_its_place_in_a_queue_alone() {
     assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
 }
 
+/// An agent before its goal; the next one walks close behind, and prefers a velocity.
+fn followed(preferred_mps: Vec2) -> Scene {
+    let mut scene = Scene::new(&[[0.0, 0.0], [-0.7, 0.0]]);
+    scene.velocities_mps = vec![WALK; 2];
+    scene.preferred_mps = vec![0.3 * WALK, preferred_mps];
+    scene
+}
+
+#[test]
+fn an_agent_brakes_before_its_goal_with_another_behind() {
+    check_switch(&followed(WALK), &alone(0.3 * WALK), |parts| parts.slowing = false);
+    let mut scene = followed(WALK);
+    let [alone_mps, with_mps] = [alone(0.3 * WALK), scene.clone()].map(|scene| scene.plan().velocity_mps.x);
+    scene.params.planner.parts.slowing = false;
+    let without_mps = scene.plan().velocity_mps.x;
+    assert!(with_mps < without_mps && with_mps < alone_mps + 0.02, "{alone_mps} {with_mps} {without_mps}");
+}
+
 /// An agent that stands; the next one stands in contact ahead, and prefers a velocity.
 fn in_contact(preferred_mps: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.5, 0.0]]);
@@ -393,6 +412,7 @@ fn without_its_parts_mcn_is_orca() {
         back_pedalling: false,
         keep_right: false,
         queueing: false,
+        slowing: false,
         pressing: false,
         turn_first: false,
     };

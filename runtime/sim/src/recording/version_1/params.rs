@@ -151,6 +151,7 @@ impl From<McnPartsV1> for McnParts {
             back_pedalling: parts.back_pedalling,
             keep_right: parts.keep_right,
             queueing: false,
+            slowing: false,
             pressing: false,
             turn_first: false,
         }

@@ -20,6 +20,8 @@ use motiondb::velocity_sets::velocity_hull::VelocityHull;
 const AGENTS: usize = 8;
 /// Half the side of the square in which they walk, m.
 const SQUARE_M: f64 = 3.0;
+/// Speed that all agents prefer on a free path, m/s.
+const FREE_SPEED_MPS: f32 = 1.3;
 /// Greatest displacement of a scene along each axis, m.
 const MOVED_M: f64 = 5.0;
 /// Greatest difference of the turned velocity, m/s.
@@ -107,6 +109,7 @@ impl Scene {
             radii_m: &radii_m,
             wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
+            free_speeds_mps: &vec![FREE_SPEED_MPS; self.preferred_mps.len()],
             facing_offsets_rad: &self.facing_offsets_rad,
             stances: &self.stances,
             planned_mps: &self.velocities_mps,

@@ -25,6 +25,8 @@ const POLYGONS_MAX: usize = 4;
 const SQUARE_M: f64 = 6.0;
 /// Greatest coordinate of an agent that is far off, m, and of a velocity that is too great, m/s.
 const FAR: f64 = 1e4;
+/// Speed that all agents prefer on a free path, m/s.
+const FREE_SPEED_MPS: f32 = 1.3;
 /// Rounding of a plan's speed, as a share of its limit.
 const SPEED_SLACK: f32 = 1e-3;
 
@@ -37,6 +39,7 @@ pub struct GeneratedWorld {
     radii_m: Vec<f32>,
     wall_radii_m: Vec<f32>,
     preferred_mps: Vec<Vec2>,
+    free_speeds_mps: Vec<f32>,
     facing_offsets_rad: Vec<f32>,
     stances: Vec<Stance>,
     planned_mps: Vec<Vec2>,
@@ -64,6 +67,7 @@ impl GeneratedWorld {
             wall_radii_m: radii_m.iter().map(|&radius_m| radius_m * (0.5 + draw.within(0.5).abs())).collect(),
             radii_m,
             preferred_mps: (0..count).map(|_| draw.velocity_mps()).collect(),
+            free_speeds_mps: vec![FREE_SPEED_MPS; count],
             stances: (0..count).map(|_| draw.stance()).collect(),
             strafing_s: (0..count).map(|_| draw.within(2.0).max(0.0)).collect(),
             stepping_back_s: (0..count).map(|_| draw.within(3.0).max(0.0)).collect(),
@@ -107,6 +111,7 @@ impl GeneratedWorld {
             radii_m: &self.radii_m,
             wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
+            free_speeds_mps: &self.free_speeds_mps,
             facing_offsets_rad: &self.facing_offsets_rad,
             stances: &self.stances,
             planned_mps: &self.planned_mps,

@@ -6,6 +6,7 @@ use glam::Vec2;
 
 use crate::planning::mcn::avoidance::pressing::with_pressing;
 use crate::planning::mcn::avoidance::queueing::queue_half_plane;
+use crate::planning::mcn::avoidance::slowing::with_slowing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::McnParams;
 use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane, shares};
@@ -50,6 +51,8 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
         let (share, horizon_s) = (shares[lane] + (of_priority[lane] - EQUAL_SHARE), horizons_s[lane]);
         let share = share.clamp(0.0, 1.0);
         let (own_mps, neighbour) = world.with_right_of_way(agent, neighbour);
+        let (own_mps, neighbour) =
+            if params.parts.slowing { with_slowing(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
         let (own_mps, neighbour) =
             if params.parts.pressing { with_pressing(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij

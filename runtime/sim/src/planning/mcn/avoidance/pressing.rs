@@ -5,7 +5,7 @@
 //! arch before a door would stand for ever. So an agent at rest counts as if it had already gained a part of what it
 //! lacks of v_pref. The mean then moves towards the agent that gains less along the line, and this agent gives way.
 //!
-//! With the velocity v_i of agent i after its right of way, the direction e_i of its preferred velocity (zero where it
+//! With the velocity v_i of agent i after its right of way and its slowing, the direction e_i of its preferred velocity (zero where it
 //! prefers to stand), a factor r_i of rest, which falls from 1 to 0 at the speed V, and a factor n of nearness, which
 //! falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
 //!
