@@ -1,4 +1,4 @@
-//! How agents slow down before their last goals, and before closed doors. World, metres, seconds.
+//! How agents slow down before their last goals, sharp turns and closed doors. World, metres, seconds.
 
 use glam::Vec2;
 
