@@ -86,7 +86,8 @@
 //!
 //! Chapters, in reading order: [`simulation`] (one step, the paper's Fig. 2), then along that step [`scenario`],
 //! [`route`], [`world`], [`planning`] (§4), [`synthesis`] (§5), [`coupling`] (§3.4), [`recording`] and [`measures`];
-//! [`agents`] is the state of all agents, [`population`] all that ever were, [`params`] the tunables, [`maths`] what several chapters share.
+//! [`agents`] is the state of all agents, [`population`] all that ever were, [`params`] the tunables, [`maths`] what
+//! several chapters share.
 //!
 //! World axes: x and y on the ground, z up, right-handed. Agent frame: x forward, y left. Metres, seconds, radians;
 //! angles counter-clockwise from above.

@@ -8,8 +8,8 @@ use crate::scenario::Coupling;
 pub(crate) const BRAKING_MPS2: f32 = 1.0;
 /// Time remaining on the last stretch, s: there the speed falls with the distance.
 const STOPPING_TIME_S: f32 = 0.5;
-/// Time for which a body goes on at its speed beyond the point where its agent prefers to rest, s: plans lag behind v_pref,
-/// and the feet close (docs/tuning.md).
+/// Time for which a body goes on at its speed beyond the point where its agent prefers to rest, s: plans lag behind
+/// v_pref, and the feet close (docs/tuning.md).
 pub(crate) const COAST_S: f32 = 0.16;
 
 /// How an agent slows down before its last goal.

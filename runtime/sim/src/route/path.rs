@@ -181,8 +181,8 @@ struct Stretch {
 }
 
 impl Stretch {
-    /// Whether the agent stands at its goal or comes to rest there, with no wall before it, and not much nearer to a wall than
-    /// the goal. `arrived` states whether it had arrived before.
+    /// Whether the agent stands at its goal or comes to rest there, with no wall before it, and not much nearer to a
+    /// wall than the goal. `arrived` states whether it had arrived before.
     fn has_arrived(&self, arrived: bool, view: &RouteView) -> bool {
         let comes_m = || (GOAL_RADIUS_M + self.coast_m(view)).min(GOAL_LEFT_RADIUS_M);
         let radius_m = if arrived { GOAL_LEFT_RADIUS_M } else { comes_m() };
@@ -210,8 +210,8 @@ impl Stretch {
         Some(PreferredMotion::along(heading, self.speed_mps))
     }
 
-    /// The speed towards a waypoint at which the agent turns too sharply to round it, m/s: a body brakes. It does not rest, so
-    /// what it coasts does not count.
+    /// The speed towards a waypoint at which the agent turns too sharply to round it, m/s: a body brakes. It does not
+    /// rest, so what it coasts does not count.
     fn speed_before_turn_mps(&self, view: &RouteView) -> f32 {
         match view.braking {
             Braking::Evenly | Braking::Not => {
@@ -255,6 +255,11 @@ mod tests {
         }
     }
 
+    /// The view of an agent that brakes evenly.
+    fn view<'a>(routes: &'a CrowdRoutes, obstacles: &'a Obstacles, coasting_mps: Vec2) -> RouteView<'a> {
+        RouteView { routes, doors: None, obstacles, keep: KeepSide::Right, braking: Braking::Evenly, coasting_mps }
+    }
+
     /// v_pref on open ground, braking evenly.
     fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
         coasting_on_open_ground_mps(agent, position_m, Vec2::ZERO, progress)
@@ -267,14 +272,7 @@ mod tests {
         progress: &mut PathProgress,
     ) -> Vec2 {
         let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
-        let view = RouteView {
-            routes: &routes,
-            doors: None,
-            obstacles: &obstacles,
-            keep: KeepSide::Right,
-            braking: Braking::Evenly,
-            coasting_mps,
-        };
+        let view = view(&routes, &obstacles, coasting_mps);
         preferred_motion(agent, position_m, &view, progress, &mut RouteMemory::default()).velocity_mps
     }
 
@@ -383,14 +381,7 @@ mod tests {
         let obstacles = Obstacles::new(std::slice::from_ref(&post_m));
         let routes =
             CrowdRoutes::new(&Scenario { obstacles_m: vec![post_m], ..Scenario::of(vec![agent.clone()]) }).unwrap();
-        let view = RouteView {
-            routes: &routes,
-            doors: None,
-            obstacles: &obstacles,
-            keep: KeepSide::Right,
-            braking: Braking::Evenly,
-            coasting_mps: Vec2::ZERO,
-        };
+        let view = view(&routes, &obstacles, Vec2::ZERO);
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut motion = |x_m, y_m| {
             let motion =

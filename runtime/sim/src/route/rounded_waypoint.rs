@@ -11,7 +11,8 @@ const BESIDE_M: f32 = 1.0;
 const ROUNDED_M: f32 = 0.5;
 /// Time before a waypoint at which rounding begins, s: 0.9 m at a walk (docs/tuning.md).
 const ROUNDING_S: f32 = 0.7;
-/// Time for which a body goes on before it turns as v_pref does, s: plans lag, and bodies behind plans (docs/tuning.md).
+/// Time for which a body goes on before it turns as v_pref does, s: plans lag, and bodies behind plans
+/// (docs/tuning.md).
 const TURNING_S: f32 = 0.3;
 /// Cosine of the sharpest turn that is rounded, 120°. To turn further, an agent first walks to the waypoint.
 const ROUNDED_COS: f32 = -0.5;
@@ -54,8 +55,8 @@ impl RoundedWaypoint {
         }
     }
 
-    /// Unit direction of v_pref: to the waypoint, turning towards the one after as the bisector comes near. An agent goes on
-    /// at `coasting_mps` before it turns, so it counts as that much nearer.
+    /// Unit direction of v_pref: to the waypoint, turning towards the one after as the bisector comes near. An agent
+    /// goes on at `coasting_mps` before it turns, so it counts as that much nearer.
     pub(crate) fn direction(&self, position_m: Vec2, coasting_mps: Vec2) -> Vec2 {
         let to = (self.waypoint_m - position_m).normalize_or_zero();
         let Some(onwards) = self.onwards else { return to };

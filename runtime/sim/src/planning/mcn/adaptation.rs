@@ -1,7 +1,8 @@
 //! v_op: the preferred velocity, adapted to the crowd (`FbCrowd` §4.3, App. 9.1, Eq. 9).
 //!
-//! Eq. 9 begins at the last plan and acts for one step, so that an agent speeds up and slows down by no more than people
-//! do at ease; half-planes may demand more. Masses are 1, so forces are accelerations. World axes, m/s and m/s².
+//! Eq. 9 begins at the last plan and acts for one step, so that an agent speeds up and slows down by no more than
+//! people do at ease; half-planes may demand more. By Eq. 9 an agent that wants to stand would slow down for ever; here
+//! it comes to rest. Masses are 1, so forces are accelerations. World axes, m/s and m/s².
 
 use glam::Vec2;
 
@@ -55,7 +56,7 @@ fn pushed_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, dt_s: 
     let change_mps = preferred_mps - velocity_mps;
     let mut driving_mps2 = change_mps / params.relaxation_s;
     if preferred_mps == Vec2::ZERO {
-        // By the driving force alone an agent that wants to stand would slow down for ever. Forces still move it.
+        // Social forces still move it.
         let least_mps2 = (RESTING_MPS2 - forces_mps2.length()).max(0.0);
         driving_mps2 = driving_mps2.clamp_length_min(least_mps2.min(change_mps.length() / dt_s));
     }

@@ -8,12 +8,13 @@ use crate::planning::mcn::avoidance::pressing::with_pressing;
 use crate::planning::mcn::avoidance::queueing::queue_half_plane;
 use crate::planning::mcn::avoidance::slowing::with_slowing;
 use crate::planning::mcn::memory::McnMemory;
-use crate::planning::mcn::params::McnParams;
+use crate::planning::mcn::params::{McnParams, McnParts};
 use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane, shares};
 use crate::planning::orca::half_plane::HalfPlane;
 use crate::planning::orca::wall_half_planes::wall_half_planes;
 use crate::planning::world_view::WorldView;
 use crate::world::disc::Disc;
+use crate::world::neighbours::Neighbour;
 use crate::world::neighbours::neighbour_lanes::{LANES, Lanes, NeighbourLanes};
 
 /// Speed from which an agent counts as walking, m/s: a slow walk. At half of it, one agent in two hundred that stand
@@ -50,17 +51,27 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     memory.of_agents.extend(neighbours.as_slice().iter().enumerate().map(|(lane, neighbour)| {
         let (share, horizon_s) = (shares[lane] + (of_priority[lane] - EQUAL_SHARE), horizons_s[lane]);
         let share = share.clamp(0.0, 1.0);
-        let (own_mps, neighbour) = world.with_right_of_way(agent, neighbour);
-        let (own_mps, neighbour) =
-            if params.parts.slowing { with_slowing(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
-        let (own_mps, neighbour) =
-            if params.parts.pressing { with_pressing(world, agent, own_mps, &neighbour) } else { (own_mps, neighbour) };
+        let (own_mps, neighbour) = with_gains(world, agent, neighbour, &params.parts);
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
     if params.parts.queueing {
         memory.of_agents.extend(queue_half_plane(world, agent, neighbours.as_slice(), &weights));
     }
+}
+
+/// An agent's velocity, and one of its neighbours, as half-planes take them: with what both gain by right of way, by
+/// slowing and by pressing, in this order.
+#[inline(always)]
+fn with_gains(world: &WorldView, agent: usize, neighbour: &Neighbour, parts: &McnParts) -> (Vec2, Neighbour) {
+    let (mut own_mps, mut neighbour) = world.with_right_of_way(agent, neighbour);
+    if parts.slowing {
+        (own_mps, neighbour) = with_slowing(world, agent, own_mps, &neighbour);
+    }
+    if parts.pressing {
+        (own_mps, neighbour) = with_pressing(world, agent, own_mps, &neighbour);
+    }
+    (own_mps, neighbour)
 }
 
 /// τ against each neighbour, s. One that stands is a wall, and is avoided no earlier: at rest it bounds the approach to

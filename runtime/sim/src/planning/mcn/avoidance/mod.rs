@@ -2,8 +2,8 @@
 //!
 //! Enters: the world view, and the surroundings of one agent. Leaves: half-planes with weights, in its memory.
 //!
-//! Read `agents_and_walls`, Eq. 12; then what the paper lacks: `slowing` (agents see each other brake), `pressing` (agents in
-//! contact dissolve an arch) and `queueing` (agents that wait hold their place).
+//! Read `agents_and_walls`, Eq. 12; then what the paper lacks: `slowing` (agents see each other brake), `pressing`
+//! (agents in contact dissolve an arch) and `queueing` (agents that wait hold their place).
 
 mod agents_and_walls;
 mod pressing;

@@ -1,13 +1,14 @@
-//! Pressing: agents that stand in contact, and want to go in different directions, press on. `FbCrowd` does not have it.
+//! Pressing: agents that stand in contact, and want to go in different directions, press on. `FbCrowd` does not have
+//! it.
 //!
 //! By equal shares, each of two agents in contact moves towards the other no faster than the mean of both velocities
 //! along the line of their centres. Where both stand, this mean is zero and stays zero, so three agents that form an
 //! arch before a door would stand for ever. So an agent at rest counts as if it had already gained a part of what it
 //! lacks of v_pref. The mean then moves towards the agent that gains less along the line, and this agent gives way.
 //!
-//! With the velocity v_i of agent i after its right of way and its slowing, the direction e_i of its preferred velocity (zero where it
-//! prefers to stand), a factor r_i of rest, which falls from 1 to 0 at the speed V, and a factor n of nearness, which
-//! falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
+//! With the velocity v_i of agent i after its right of way and its slowing, the direction e_i of its preferred velocity
+//! (zero where it prefers to stand), a factor r_i of rest, which falls from 1 to 0 at the speed V, and a factor n of
+//! nearness, which falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
 //!
 //! ```text
 //! n · r_i · min(1, |e_i - e_j|²) · (v_pref_i - v_i),  the last factor limited to P.

@@ -1,10 +1,10 @@
 //! Slowing: in the half-planes of both agents, an agent that brakes before a goal, or wants to stand, counts as slower.
 //! `FbCrowd` does not have it.
 //!
-//! By equal shares, an agent with another close behind can hardly brake: of the speed gap/τ at which both may close, it has
-//! one half. So agents that came to one place together ran on past their goals. Agents that stood were pushed along by those
-//! that passed: an agent that moves counts as one that walks on. People see each other brake, and step around people who
-//! stand.
+//! By equal shares, an agent with another close behind can hardly brake: of the speed gap/τ at which both may close, it
+//! has one half. So agents that came to one place together ran on past their goals. Agents that stood were pushed along
+//! by those that passed: an agent that moves counts as one that walks on. People see each other brake, and step around
+//! people who stand.
 //!
 //! With the velocity v of an agent after its right of way, and the speed s that it prefers on a free path, it gains
 //!
@@ -12,8 +12,8 @@
 //! max(0, 1 - |v_pref|/s) · clamp((|v| - |v_pref|)/D, 0, 1) · (v_pref - v),  at most L.
 //! ```
 //!
-//! The first factor is 1 where the agent wants to stand, and 0 where it wants to walk at its own speed. In a state, a group or
-//! a zone that slows an agent down, it is between both (docs/tuning.md).
+//! The first factor is 1 where the agent wants to stand, and 0 where it wants to walk at its own speed. In a state, a
+//! group or a zone that slows an agent down, it is between both (docs/tuning.md).
 //!
 //! World axes, m/s.
 
