@@ -73,6 +73,8 @@ pub enum VelocitySet {
 pub struct Plan {
     /// v_i: planned velocity, world, m/s.
     pub velocity_mps: Vec2,
+    /// Whether a body stands in a queue, rather than go backward at this velocity.
+    pub waits: bool,
     /// f_d: facing to turn to, world, rad.
     pub facing_rad: f32,
     /// Least time to collision at the present velocities, s; infinite where nothing is met.

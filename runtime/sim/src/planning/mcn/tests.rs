@@ -271,6 +271,26 @@ fn an_agent_holds_its_place_in_a_queue_alone() {
     assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
 }
 
+/// An agent that stands between two others; the disc of a third one ahead overlaps its own. They go in a direction.
+fn crowded(way: Vec2) -> Scene {
+    let mut scene = Scene::new(&[[0.0, 0.0], [0.48, 0.0], [0.05, 0.5], [0.05, -0.5]]);
+    scene.velocities_mps.fill(Vec2::ZERO);
+    scene.preferred_mps[1..].fill(way);
+    scene
+}
+
+#[test]
+fn a_body_waits_in_a_queue_alone() {
+    let plans = [WALK, -WALK, WALK.perp()].map(|way| crowded(way).plan());
+    assert!(plans.iter().all(|plan| plan.velocity_mps.x < 0.0), "{plans:?}");
+    assert_eq!(plans.map(|plan| plan.waits), [true, false, false]);
+    // It yields to one that comes back at a walk.
+    let mut walked_into = crowded(WALK);
+    walked_into.velocities_mps[1] = -WALK;
+    let plan = walked_into.plan();
+    assert!(!plan.waits && plan.velocity_mps.x < -0.2, "{plan:?}");
+}
+
 /// An agent before its goal; the next one walks close behind, and prefers a velocity.
 fn followed(preferred_mps: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [-0.7, 0.0]]);

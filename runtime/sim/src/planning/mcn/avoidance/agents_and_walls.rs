@@ -5,7 +5,7 @@
 use glam::Vec2;
 
 use crate::planning::mcn::avoidance::pressing::with_pressing;
-use crate::planning::mcn::avoidance::queueing::queue_half_plane;
+use crate::planning::mcn::avoidance::queueing::{queue_half_plane, queueing_share};
 use crate::planning::mcn::avoidance::slowing::with_slowing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::{McnParams, McnParts};
@@ -55,9 +55,9 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
-    if params.parts.queueing {
-        memory.of_agents.extend(queue_half_plane(world, agent, neighbours.as_slice(), &weights));
-    }
+    memory.queueing_share =
+        if params.parts.queueing { queueing_share(world, agent, neighbours.as_slice(), &weights) } else { 0.0 };
+    memory.of_agents.extend(queue_half_plane(world, agent, memory.queueing_share));
 }
 
 /// An agent's velocity, and one of its neighbours, as half-planes take them: with what both gain by right of way, by

@@ -11,3 +11,4 @@ mod queueing;
 mod slowing;
 
 pub(crate) use agents_and_walls::avoid;
+pub(crate) use queueing::waits;

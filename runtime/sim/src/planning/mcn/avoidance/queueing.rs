@@ -6,11 +6,14 @@
 //! ahead go elsewhere, and it has no weight: jams dissolve by stepping back.
 //!
 //! With the directions e of the preferred velocities, the urgency w_j of a neighbour j (`avoidance`), and the share a_j of
-//! its offset along e_i, the weight of the half-plane is
+//! its offset along e_i, agent i queues by the share
 //!
 //! ```text
-//! W·max(0, Σ_j w_j·a_j·(e_i·e_j) / Σ_j w_j·a_j)².
+//! q = max(0, Σ_j w_j·a_j·(e_i·e_j) / Σ_j w_j·a_j)²,
 //! ```
+//!
+//! and the weight of the half-plane is W·q. Discs that overlap by a millimetre still part at .1 m/s and more. People in a
+//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q stands instead.
 //!
 //! World axes, m/s.
 
@@ -26,14 +29,11 @@ const WEIGHT: f32 = 0.7;
 /// Weight below which there is no half-plane. Weights matter only where not all half-planes can be kept: elsewhere a
 /// half-plane of the least weight would be kept in full.
 const WEIGHT_MIN: f32 = 0.02;
+/// C: speed below which no body goes backward where all agents ahead go the same way, m/s (docs/tuning.md).
+const CREEP_MAX_MPS: f32 = 0.45;
 
-/// The half-plane of an agent that queues behind its neighbours, given their urgencies; none where it does not queue.
-pub(crate) fn queue_half_plane(
-    world: &WorldView,
-    agent: usize,
-    neighbours: &[Neighbour],
-    urgencies: &Lanes,
-) -> Option<HalfPlane> {
+/// q: share by which an agent queues behind its neighbours, given their urgencies, 0 to 1.
+pub(crate) fn queueing_share(world: &WorldView, agent: usize, neighbours: &[Neighbour], urgencies: &Lanes) -> f32 {
     let own_direction = world.preferred_direction(agent);
     let (mut alike, mut all) = (0.0, 0.0_f32);
     for (neighbour, urgency) in neighbours.iter().zip(urgencies) {
@@ -42,7 +42,18 @@ pub(crate) fn queue_half_plane(
         all += ahead;
     }
     let share = if all > 0.0 { (alike / all).max(0.0) } else { 0.0 };
-    let weight = WEIGHT * share * share;
-    let half_plane = HalfPlane::behind(Vec2::ZERO, -own_direction, HalfPlaneSource::Queue);
+    share * share
+}
+
+/// The half-plane of an agent that queues by a share; none where it hardly does.
+pub(crate) fn queue_half_plane(world: &WorldView, agent: usize, queueing_share: f32) -> Option<HalfPlane> {
+    let weight = WEIGHT * queueing_share;
+    let half_plane = HalfPlane::behind(Vec2::ZERO, -world.preferred_direction(agent), HalfPlaneSource::Queue);
     (weight > WEIGHT_MIN).then_some(HalfPlane { weight, ..half_plane })
+}
+
+/// Whether the body of an agent that queues by a share stands, rather than go backward at a planned velocity.
+pub(crate) fn waits(world: &WorldView, agent: usize, queueing_share: f32, velocity_mps: Vec2) -> bool {
+    let goes_back = world.preferred_mps[agent].dot(velocity_mps) < 0.0;
+    goes_back && velocity_mps.length() < CREEP_MAX_MPS * queueing_share
 }
