@@ -86,7 +86,7 @@ impl Body {
         posture.shift(centring.follow(stands, &contact.locks, &frame, step));
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step) * Vec2::Y);
         let mut contacts_ahead = contacts_ahead(&moment.active, motion, context);
-        contact.settling.follow(stands, &posture.contacts, &contact.locks, step.dt_s);
+        contact.settling.follow(stands, frame.forward, &posture.contacts, &contact.locks, step.dt_s);
         contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
         let feet = FootMotion {
             planted: posture.contacts.map(|contact| contact >= PLANTED_CONTACT),

@@ -271,7 +271,7 @@ fn an_agent_holds_its_place_in_a_queue_alone() {
     assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
 }
 
-/// An agent that stands between two others; the disc of a third one ahead overlaps its own. They go in a direction.
+/// An agent stands between two others; a third, ahead, overlaps it. The three prefer a velocity.
 fn crowded(way: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.48, 0.0], [0.05, 0.5], [0.05, -0.5]]);
     scene.velocities_mps.fill(Vec2::ZERO);
@@ -284,6 +284,10 @@ fn a_body_waits_in_a_queue_alone() {
     let plans = [WALK, -WALK, WALK.perp()].map(|way| crowded(way).plan());
     assert!(plans.iter().all(|plan| plan.velocity_mps.x < 0.0), "{plans:?}");
     assert_eq!(plans.map(|plan| plan.waits), [true, false, false]);
+    // Chests do not overlap.
+    let mut inside = crowded(WALK);
+    inside.positions_m[1].x = 0.38;
+    assert!(!inside.plan().waits);
     // It yields to one that comes back at a walk.
     let mut walked_into = crowded(WALK);
     walked_into.velocities_mps[1] = -WALK;

@@ -2,7 +2,7 @@
 //!
 //! In a jam the planner creeps past neighbours at a few cm/s. A body that stands
 //! ([`crate::synthesis::command::step_state`]) would never follow, and two bodies that wait for each other would stand
-//! forever. Of a plan to wait in a queue nothing accumulates.
+//! forever. A body that waits in a queue makes no such step, and forgets what has accumulated.
 //!
 //! World frame; metres, seconds.
 
@@ -31,18 +31,24 @@ impl DisplacementAccumulator {
     /// The plan with the velocity that the body is to have: that of the step, while there is one; none while it waits.
     /// `actual_mps` is the velocity of the root in the last step.
     pub(crate) fn follow(&mut self, plan: &Plan, actual_mps: Vec2, step: &TimeStep) -> Plan {
-        let planned_mps = if plan.waits { Vec2::ZERO } else { plan.velocity_mps };
-        let creeps = planned_mps.length() < STEP_SPEED_MPS;
+        if plan.waits {
+            *self = Self::default();
+            return Plan { velocity_mps: Vec2::ZERO, ..*plan };
+        }
+        let creeps = plan.velocity_mps.length() < STEP_SPEED_MPS;
         if !creeps {
             *self = Self::default();
             return *plan;
         }
-        let displacement_m = step.displacement_left * self.displacement_m + step.dt_s * (planned_mps - actual_mps);
+        let displacement_m =
+            step.displacement_left * self.displacement_m + step.dt_s * (plan.velocity_mps - actual_mps);
         self.displacement_m = displacement_m.clamp_length_max(DISPLACEMENT_MAX_M);
-        let still_planned = self.displacement_m.dot(planned_mps) > 0.0;
+        let still_planned = self.displacement_m.dot(plan.velocity_mps) > 0.0;
         self.steps = still_planned && (self.steps || self.displacement_m.length() > STEP_M);
-        let step_mps = STEP_SPEED_MPS * self.displacement_m.normalize_or_zero();
-        Plan { velocity_mps: if self.steps { step_mps } else { planned_mps }, ..*plan }
+        if !self.steps {
+            return *plan;
+        }
+        Plan { velocity_mps: STEP_SPEED_MPS * self.displacement_m.normalize_or_zero(), ..*plan }
     }
 }
 
@@ -74,10 +80,16 @@ mod tests {
 
     #[test]
     fn a_body_that_waits_does_not_move() {
-        let plan = Plan { velocity_mps: Vec2::new(-0.4, 0.0), waits: true, ..Plan::default() };
         let mut accumulator = DisplacementAccumulator::default();
-        let mut follow = || accumulator.follow(&plan, Vec2::ZERO, &TimeStep::new(0.1)).velocity_mps;
-        assert!((0..60).all(|_| follow() == Vec2::ZERO));
+        // Its plan leads back and ahead in turns.
+        let mut follow = |step: usize| {
+            let waits = step % 10 < 5;
+            let plan = Plan { velocity_mps: Vec2::new(if waits { -0.3 } else { 0.3 }, 0.0), waits, ..Plan::default() };
+            accumulator.follow(&plan, Vec2::ZERO, &TimeStep::new(0.1)).velocity_mps.x
+        };
+        let followed_mps: Vec<f32> = (0..60).map(&mut follow).collect();
+        assert_eq!(followed_mps[..10], [0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 0.3, 0.3, 0.3, 0.3]);
+        assert!(followed_mps.iter().all(|speed_mps| *speed_mps < STEP_SPEED_MPS));
     }
 
     #[test]

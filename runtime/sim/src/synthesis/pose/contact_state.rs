@@ -53,21 +53,23 @@ impl ContactState {
             let (foot, other) = (&posture.feet[side], &posture.feet[1 - side]);
             let posed = posed_foot(frame, foot, soles_m[side]);
             let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
-            let later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
+            let posed_later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
+            let settling_m = self.settling.target_m(side);
+            let target_m = settling_m.unwrap_or(Vec2::ZERO);
+            let later_m = posed_later_m + Vec2::new(frame.forward.x, -frame.forward.y).rotate(target_m).extend(0.0);
             let sole_later_m = soles_m[side].map(|point_m| point_m + later_m - foot.ankle_m);
             let radius_m = skeleton.segment_radii_m[Joint::TOES[side].index()];
             let into_room_m = back_m(sole_later_m, radius_m, room);
             let passes = side != first && self.locks[first].planted();
             let past_stance_m = if passes {
                 let stances_m = [other.ankle_m, locked[first].ankle_m];
-                aside_m(side, [later_m, later_m + into_room_m.extend(0.0)], stances_m)
+                aside_m(side, [posed_later_m, later_m + into_room_m.extend(0.0)], stances_m)
             } else {
                 Vec2::ZERO
             };
-            let away_m = frame.forward.rotate(into_room_m + past_stance_m);
+            let away_m = frame.forward.rotate(into_room_m + past_stance_m) + target_m;
             let (planted, contact_ahead) = (motion.planted[side], motion.contacts_ahead[side]);
-            let settles = self.settling.swing().is_some_and(|(swinging, _)| swinging == side);
-            let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles };
+            let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles: settling_m.is_some() };
             let lock = self.locks[side].step(&posed, &footing, step);
             held[side] = lock.is_held;
             locked[side] =

@@ -161,9 +161,9 @@ impl FootLock {
         self.planted.then_some(self.shift_m[0])
     }
 
-    /// Distance of a planted foot from where the pose has it, m; a twist adds the way of the toes.
-    pub(crate) fn planted_off_m(&self) -> Option<f32> {
-        let off_m = self.shift_m[0].length() + TOES_M * self.twist_rad[0].abs();
+    /// Distance of a planted foot from a point relative to where the pose has it, m; a twist adds the way of the toes.
+    pub(crate) fn planted_off_m(&self, target_m: Vec2) -> Option<f32> {
+        let off_m = self.shift_m[0].distance(target_m) + TOES_M * self.twist_rad[0].abs();
         self.planted.then_some(off_m)
     }
 

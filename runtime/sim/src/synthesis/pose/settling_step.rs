@@ -1,41 +1,64 @@
 //! Settling step: a standing body brings its feet under itself.
 //!
 //! A walking body stops with one foot before the other, and one that turns or is moved leaves its feet behind. One foot
-//! after the other then leaves the ground, moves to where the standing pose has it, and lands.
+//! after the other then leaves the ground, moves to where the standing pose has it, and lands. People who stop do not line
+//! up their feet: a foot that comes from behind lands a little behind, one from ahead a little ahead.
 //!
-//! Metres, radians, seconds; sides are 0 left, 1 right.
+//! World axes; metres, radians, seconds; sides are 0 left, 1 right.
+
+use glam::Vec2;
 
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::synthesis::pose::FootLock;
 use crate::synthesis::pose::foot_lock::LANDING_AHEAD_S;
 
-/// Distance of a foot from its place in standing beyond which it steps, m.
+/// Distance of a foot from where it is to stand beyond which it steps, m.
 const OFF_MAX_M: f32 = 0.07;
 /// Duration of the step, s: steps of 15 to 30 cm in captures take .3 to .4 s.
 const DURATION_S: f32 = 0.38;
+/// Share of its displacement along the facing by which a foot lands short of its place, and the most, m.
+const SHORT_SHARE: f32 = 0.2;
+const SHORT_MAX_M: f32 = 0.05;
 
 /// The settling step of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SettlingStep {
     /// The foot in the air, and the time until it lands, s.
     swing: Option<(usize, f32)>,
+    /// Where each foot of a standing body is to stand, relative to its place in the standing pose, m.
+    targets_m: [Vec2; 2],
 }
 
 impl SettlingStep {
-    /// Goes on by one step, given the contacts of the motion and the feet after the last step. A body that does not stand
-    /// begins none, but ends the one that it began, as long as its motion leaves the other foot on the ground.
-    pub(crate) fn follow(&mut self, stands: bool, contacts: &[f32; 2], locks: &[FootLock; 2], dt_s: f32) {
+    /// Goes on by one step, given the facing, the contacts of the motion, and the feet after the last step. A body that does
+    /// not stand begins none, but ends the one that it began, as long as its motion leaves the other foot on the ground.
+    pub(crate) fn follow(
+        &mut self,
+        stands: bool,
+        forward: Vec2,
+        contacts: &[f32; 2],
+        locks: &[FootLock; 2],
+        dt_s: f32,
+    ) {
         let goes_on = |side: usize| stands || contacts[1 - side] >= PLANTED_CONTACT;
-        self.swing = match self.swing.filter(|(side, _)| goes_on(*side)) {
-            Some((side, left_s)) => Some((side, left_s - dt_s)).filter(|(_, left_s)| *left_s > 0.0),
-            None if stands => foot_off(locks).map(|side| (side, DURATION_S)),
-            None => None,
+        self.swing = match self.swing.filter(|(side, left_s)| goes_on(*side) && *left_s > 0.0) {
+            // The foot moves to its target also in the step within which it lands.
+            Some((side, left_s)) => Some((side, left_s - dt_s)),
+            None if stands => self.foot_off(locks).map(|(side, shift_m)| {
+                let short_m = (SHORT_SHARE * shift_m.dot(forward)).clamp(-SHORT_MAX_M, SHORT_MAX_M);
+                self.targets_m[side] = short_m * forward;
+                (side, DURATION_S)
+            }),
+            None => {
+                self.targets_m = [Vec2::ZERO; 2];
+                None
+            }
         };
     }
 
     /// Lifts the foot in the air, given the contact of each foot, now and [`LANDING_AHEAD_S`] later.
     pub(crate) fn lift(&self, contacts: &mut [f32; 2], contacts_ahead: &mut [f32; 2]) {
-        if let Some((side, left_s)) = self.swing {
+        if let Some((side, left_s)) = self.swing.filter(|(_, left_s)| *left_s > 0.0) {
             contacts[side] = 0.0;
             if left_s > LANDING_AHEAD_S {
                 contacts_ahead[side] = 0.0;
@@ -43,17 +66,24 @@ impl SettlingStep {
         }
     }
 
-    /// The foot in the air, and the time until it lands, s.
+    /// The foot in the air, and the time until it lands, s; 0 or less in the step within which it lands.
     pub(crate) fn swing(&self) -> Option<(usize, f32)> {
         self.swing
     }
-}
 
-/// The foot that is farther from its place in standing, if it is too far and both are planted.
-fn foot_off(locks: &[FootLock; 2]) -> Option<usize> {
-    let [left_m, right_m] = locks.each_ref().map(FootLock::planted_off_m);
-    let (left_m, right_m) = left_m.zip(right_m)?;
-    (left_m.max(right_m) > OFF_MAX_M).then_some(usize::from(right_m > left_m))
+    /// Where a foot that settles is to land, relative to its place in the standing pose, m.
+    pub(crate) fn target_m(&self, side: usize) -> Option<Vec2> {
+        self.swing.filter(|(swinging, _)| *swinging == side).map(|_| self.targets_m[side])
+    }
+
+    /// The foot that is farther from where it is to stand, if it is too far and both are planted, and its shift, m.
+    fn foot_off(&self, locks: &[FootLock; 2]) -> Option<(usize, Vec2)> {
+        let off_m = |side: usize| locks[side].planted_off_m(self.targets_m[side]);
+        let (left_m, right_m) = off_m(0).zip(off_m(1))?;
+        let side = usize::from(right_m > left_m);
+        let shift_m = locks[side].planted_shift_m()?;
+        (left_m.max(right_m) > OFF_MAX_M).then_some((side, shift_m))
+    }
 }
 
 #[cfg(test)]
@@ -64,6 +94,7 @@ mod tests {
     use motiondb::body::Root;
 
     use crate::planning::plan::{PLANTED_CONTACT, Plan};
+    use crate::synthesis::pose::ContactState;
     use crate::synthesis::{HmsParams, Modes, SynthesisContext};
     use crate::test_db::test_db;
 
@@ -91,12 +122,40 @@ mod tests {
     }
 
     #[test]
-    fn a_body_stands_on_feet_side_by_side_wherever_it_stops() {
+    fn a_body_stands_on_both_feet_wherever_it_stops() {
         for velocity_mps in [Vec2::new(1.2, 0.0), Vec2::new(0.4, 0.0), Vec2::new(0.0, 0.5), Vec2::new(-0.5, 0.0)] {
             for stop_s in [2.0, 2.15, 2.3, 2.45, 2.6, 2.75, 2.9] {
-                let (off_m, planted, _) = stop(velocity_mps, stop_s)[359];
-                assert!(planted && off_m.iter().all(|off_m| *off_m < 0.09), "{velocity_mps}, {stop_s} s: {off_m:?} m");
+                let steps = stop(velocity_mps, stop_s);
+                let off_m = steps[359].0;
+                assert!(off_m.iter().all(|off_m| *off_m < 0.09), "{velocity_mps}, {stop_s} s: {off_m:?} m");
+                assert!(steps[300..].iter().all(|(_, planted, _)| *planted), "{velocity_mps}, {stop_s} s");
             }
+        }
+    }
+
+    #[test]
+    fn a_foot_that_settles_lands_short_in_steps_of_any_duration() {
+        let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+        let context = SynthesisContext::new(Arc::new(test_db()), params);
+        for dt_s in [1.0 / 120.0, 1.0 / 30.0, 0.1] {
+            let mut greatest_m = 0.0_f32;
+            for stop_s in [2.0, 2.15, 2.3, 2.45, 2.6] {
+                let plan = |time_s: f32, _: &Root| Plan {
+                    velocity_mps: if time_s < stop_s { Vec2::X } else { Vec2::ZERO },
+                    time_to_collision_s: f32::INFINITY,
+                    ..Plan::default()
+                };
+                let contacts = context.walk_alone(0.3, 6.0, dt_s, plan, |body, _| body.contact);
+                let ContactState { locks, settling, .. } = contacts[contacts.len() - 1];
+                for (lock, target_m) in
+                    locks.iter().zip(settling.targets_m).filter(|(_, target_m)| *target_m != Vec2::ZERO)
+                {
+                    let off_m = lock.planted_off_m(target_m).unwrap();
+                    assert!(off_m < 0.02, "dt {dt_s}, stopped at {stop_s} s: {off_m} m");
+                    greatest_m = greatest_m.max(target_m.length());
+                }
+            }
+            assert!(greatest_m > 0.03, "dt {dt_s}: {greatest_m} m");
         }
     }
 

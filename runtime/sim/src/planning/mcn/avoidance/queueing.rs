@@ -13,7 +13,8 @@
 //! ```
 //!
 //! and the weight of the half-plane is W·q. Discs that overlap by a millimetre still part at .1 m/s and more. People in a
-//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q stands instead.
+//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q stands instead,
+//! unless its disc overlaps another by more than D.
 //!
 //! World axes, m/s.
 
@@ -30,7 +31,12 @@ const WEIGHT: f32 = 0.7;
 /// half-plane of the least weight would be kept in full.
 const WEIGHT_MIN: f32 = 0.02;
 /// C: speed below which no body goes backward where all agents ahead go the same way, m/s (docs/tuning.md).
-const CREEP_MAX_MPS: f32 = 0.45;
+const BACK_MIN_MPS: f32 = 0.45;
+/// D: overlap of two discs from which bodies part, m: shoulders yield that much, chests do not.
+const OVERLAP_MAX_M: f32 = 0.1;
+/// Cosine of the angle to the direction against v_pref within which a velocity leads backward: 78°. The half-plane leaves
+/// many velocities at 90°, exactly but for rounding.
+const BACK_COS: f32 = 0.2;
 
 /// q: share by which an agent queues behind its neighbours, given their urgencies, 0 to 1.
 pub(crate) fn queueing_share(world: &WorldView, agent: usize, neighbours: &[Neighbour], urgencies: &Lanes) -> f32 {
@@ -53,7 +59,14 @@ pub(crate) fn queue_half_plane(world: &WorldView, agent: usize, queueing_share: 
 }
 
 /// Whether the body of an agent that queues by a share stands, rather than go backward at a planned velocity.
-pub(crate) fn waits(world: &WorldView, agent: usize, queueing_share: f32, velocity_mps: Vec2) -> bool {
-    let goes_back = world.preferred_mps[agent].dot(velocity_mps) < 0.0;
-    goes_back && velocity_mps.length() < CREEP_MAX_MPS * queueing_share
+pub(crate) fn waits(
+    world: &WorldView,
+    agent: usize,
+    neighbours: &[Neighbour],
+    queueing_share: f32,
+    velocity_mps: Vec2,
+) -> bool {
+    let is_apart = |neighbour: &Neighbour| neighbour.radius_m - neighbour.distance_m <= OVERLAP_MAX_M;
+    let (speed_mps, back_mps) = (velocity_mps.length(), -world.preferred_direction(agent).dot(velocity_mps));
+    back_mps > BACK_COS * speed_mps && speed_mps < BACK_MIN_MPS * queueing_share && neighbours.iter().all(is_apart)
 }
