@@ -63,8 +63,12 @@ impl RootFrame {
 
     /// A point of the world in the root frame, metres.
     pub fn to_local(&self, point_m: Vec3) -> Vec3 {
-        let back = Vec2::new(self.forward.x, -self.forward.y);
-        back.rotate(point_m.truncate() - self.position_m).extend(point_m.z)
+        self.vector_to_local(point_m.truncate() - self.position_m).extend(point_m.z)
+    }
+
+    /// A horizontal vector of the world in the root frame, in its own unit.
+    pub fn vector_to_local(&self, vector: Vec2) -> Vec2 {
+        Vec2::new(self.forward.x, -self.forward.y).rotate(vector)
     }
 }
 

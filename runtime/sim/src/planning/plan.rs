@@ -73,7 +73,7 @@ pub enum VelocitySet {
 pub struct Plan {
     /// v_i: planned velocity, world, m/s.
     pub velocity_mps: Vec2,
-    /// Whether a body stands although this velocity leads backward, behind agents that go the same way. Discs move.
+    /// Whether the agent queues, and v_i leads slowly backward: its body stands instead. A disc without a body moves.
     pub waits: bool,
     /// f_d: facing to turn to, world, rad.
     pub facing_rad: f32,

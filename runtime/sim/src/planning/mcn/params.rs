@@ -29,7 +29,7 @@ pub struct McnParts {
     pub back_pedalling: bool,
     /// Whether agents keep right, which resolves symmetric encounters.
     pub keep_right: bool,
-    /// Whether agents that queue hold their place.
+    /// Whether agents that queue hold their place, and their bodies wait rather than creep backward.
     pub queueing: bool,
     /// Whether agents that brake before a goal, or want to stand, count as slower.
     pub slowing: bool,

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_waits_does_not_move() {
+    fn a_body_does_not_move_while_it_waits() {
         let mut accumulator = DisplacementAccumulator::default();
         // Its plan leads back and ahead in turns.
         let mut follow = |step: usize| {

@@ -24,7 +24,7 @@ impl Centring {
         let [left_m, right_m] = locks.each_ref().map(FootLock::planted_shift_m);
         let target_m = match left_m.zip(right_m) {
             _ if !stands => Vec2::ZERO,
-            Some((left_m, right_m)) => Vec2::new(frame.forward.x, -frame.forward.y).rotate(0.5 * (left_m + right_m)),
+            Some((left_m, right_m)) => frame.vector_to_local(0.5 * (left_m + right_m)),
             // The pelvis waits for a foot that settles.
             None => self.moved_m[0],
         };

@@ -56,7 +56,7 @@ impl ContactState {
             let posed_later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
             let settling_m = self.settling.target_m(side);
             let target_m = settling_m.unwrap_or(Vec2::ZERO);
-            let later_m = posed_later_m + Vec2::new(frame.forward.x, -frame.forward.y).rotate(target_m).extend(0.0);
+            let later_m = posed_later_m + frame.vector_to_local(target_m).extend(0.0);
             let sole_later_m = soles_m[side].map(|point_m| point_m + later_m - foot.ankle_m);
             let radius_m = skeleton.segment_radii_m[Joint::TOES[side].index()];
             let into_room_m = back_m(sole_later_m, radius_m, room);

@@ -1,6 +1,7 @@
 //! Avoidance: the half-planes that keep an agent off walls and other agents (`FbCrowd` §4.4).
 //!
-//! Enters: the world view, and the surroundings of one agent. Leaves: half-planes with weights, in its memory.
+//! Enters: the world view, and the surroundings of one agent. Leaves: half-planes with weights, in its memory,
+//! and whether its body waits.
 //!
 //! Read `agents_and_walls`, Eq. 12; then what the paper lacks: `slowing` (agents see each other brake), `pressing`
 //! (agents in contact dissolve an arch) and `queueing` (agents that wait hold their place).

@@ -32,10 +32,10 @@ const WEIGHT: f32 = 0.7;
 const WEIGHT_MIN: f32 = 0.02;
 /// C: speed below which no body goes backward where all agents ahead go the same way, m/s (docs/tuning.md).
 const BACK_MIN_MPS: f32 = 0.45;
-/// D: overlap of two discs from which bodies part, m: shoulders yield that much, chests do not.
+/// D: overlap of two discs from which bodies part, m: shoulders yield that much, chests do not (docs/tuning.md).
 const OVERLAP_MAX_M: f32 = 0.1;
-/// Cosine of the angle to the direction against v_pref within which a velocity leads backward: 78°. The half-plane leaves
-/// many velocities at 90°, exactly but for rounding.
+/// Cosine of the angle to the direction against v_pref within which a velocity leads backward: 78°. The half-plane brings
+/// many velocities to 90°, where rounding would decide.
 const BACK_COS: f32 = 0.2;
 
 /// q: share by which an agent queues behind its neighbours, given their urgencies, 0 to 1.
