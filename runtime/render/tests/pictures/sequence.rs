@@ -8,6 +8,7 @@ use std::sync::Mutex;
 
 use exr::prelude::{ReadChannels, ReadLayers, f16, read};
 use fbcrowd_render::error::RenderError;
+use fbcrowd_render::plots::crowd::agent_strip;
 use fbcrowd_render::raster::decode_srgb;
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions, TopView, read_tracks, render_sequence, sample};
 use fbcrowd_sim::recording::Recording;
@@ -175,4 +176,27 @@ fn frames_outside_the_recording_are_rejected() {
     let error =
         render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1-100")), &|_, _| ()).unwrap_err();
     assert!(matches!(error, RenderError::NoFrames { first: 1001, last: 1033, .. }), "{error}");
+}
+
+/// Row at which the first view of a strip begins, below its title.
+const VIEW_TOP_PX: u32 = 70;
+
+#[test]
+fn the_strip_of_a_tall_body_shows_its_head() {
+    let scratch = Scratch::new("tall_strip");
+    for stature in [0.6, 1.0, 1.3] {
+        let mut header = support::golden_header();
+        header.scenario.agents[1].stature = stature;
+        let path = scratch.path().join(format!("{stature}.fbrec"));
+        support::write_steps(&path, &header, 4);
+        let strip = agent_strip(&Recording::open(&path).unwrap(), &[], 1, &[0.2]).unwrap();
+        let is_empty = |y: u32| {
+            let row = (strip.width() / 4..strip.width() * 3 / 4).map(|x| strip.pixel(x, y).unwrap());
+            row.clone().all(|pixel| Some(pixel) == row.clone().next())
+        };
+        let crown_px = (VIEW_TOP_PX + 2..strip.height()).find(|y| !is_empty(*y)).unwrap();
+        // The upper of two views.
+        let view_px = (strip.height() - VIEW_TOP_PX) / 2;
+        assert!((VIEW_TOP_PX + 6..VIEW_TOP_PX + view_px).contains(&crown_px), "{stature}: {crown_px} px");
+    }
 }

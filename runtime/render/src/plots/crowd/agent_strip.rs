@@ -11,7 +11,7 @@ use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::{AgentFrame, ExtraFrame, Header, Recording, sample, sample_extra};
 use fbcrowd_sim::scenario::{Scenario, ShotSpec};
 use glam::{Vec2, Vec3};
-use motiondb::body::Root;
+use motiondb::body::{Joint, Root};
 use motiondb::character::Character;
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
@@ -28,10 +28,12 @@ use crate::visibility::{Lens, SamplePattern};
 
 /// Greatest number of times in a row, and in a strip.
 const TIMES: [usize; 2] = [16, 256];
-/// Width of a body's cell (that of the ground grid, whose lines part the bodies), and height of a view, m.
+/// Width of a body's cell (that of the ground grid, whose lines part the bodies), and least height of a view, m.
 const CELL_M: Vec2 = Vec2::new(1.0, 2.1);
-/// Height of a view's middle above the ground, m.
-const MIDDLE_M: f32 = 0.94;
+/// Height of the part of a view below the ground, m.
+const BELOW_M: f32 = 0.11;
+/// Least height of the part of a view above the crown, m: hair.
+const ABOVE_M: f32 = 0.12;
 /// Pixels of a metre.
 const SCALE_PX_M: f32 = 150.0;
 /// Height of the text under the views, of the title, and margin at the sides, pixels.
@@ -107,7 +109,8 @@ pub fn agent_strip(
     let moments: Vec<Moment> =
         times_s.iter().map(|&time_s| Moment::new(recording, agent.into(), time_s)).collect::<Result<_, _>>()?;
     let columns = moments.len().clamp(1, TIMES[0]);
-    let view_px = (SCALE_PX_M * CELL_M * Vec2::new(columns as f32, 1.0)).round();
+    let height_m = CELL_M.y.max(BELOW_M + top_m(recording, agent, &moments) + ABOVE_M);
+    let view_px = (SCALE_PX_M * Vec2::new(CELL_M.x * columns as f32, height_m)).round();
     let (row_px, rows) = (2.0 * view_px.y + TEXT_PX, moments.len().div_ceil(columns));
     let size_px = [view_px.x + 2.0 * MARGIN_PX, TITLE_PX + rows as f32 * row_px];
     let mut figure = PlotFigure::new(size_px.map(|side_px| side_px as u32));
@@ -156,6 +159,16 @@ impl Moment {
     }
 }
 
+/// Greatest height of an agent's head above the ground, m.
+fn top_m(recording: &Recording, agent: usize, moments: &[Moment]) -> f32 {
+    let (skeleton, head) = (recording.header().skeleton(), Joint::Head.index());
+    let head_m = |moment: &Moment| {
+        let joints = moment.frame.pose.forward_kinematics(skeleton);
+        (joints.positions_m[head] + joints.orientations[head] * skeleton.segment_ends_m[head]).z
+    };
+    recording.population().agents[agent].stature * moments.iter().map(head_m).fold(0.0, f32::max)
+}
+
 /// The header without what stands on the ground.
 fn without_scene(header: &Header) -> Header {
     let Scenario { name, dt_s, characters, styles, .. } = header.scenario.clone();
@@ -166,7 +179,7 @@ fn without_scene(header: &Header) -> Header {
 fn draw_view(view: &CameraView<'_>, shown: &[Moment], turn_rad: f32, size_px: Vec2) -> Pixmap {
     let width_m = size_px.x / SCALE_PX_M;
     let direction = Vec3::new(0.0, 1.0, -ELEVATION);
-    let middle_m = Vec3::new(0.5 * width_m, 0.0, MIDDLE_M);
+    let middle_m = Vec3::new(0.5 * width_m, 0.0, 0.5 * size_px.y / SCALE_PX_M - BELOW_M);
     let size = [size_px.x as u32, size_px.y as u32];
     let lens = Lens::orthographic(size, middle_m - EYE_M * direction, direction, width_m);
     let shot = |time_s: f64| Shot { lens, time_s, eyes_of: None, fog_m: None };
