@@ -1,6 +1,7 @@
 //! What the bench of people simulates with one database, at 60 steps a second.
 //!
 //! - Crowds: the antipodal circle, two crossing streams, a door of 1.2 m, and two scenes of Table 1.
+//! - Doors: the door of 1.2 m with other seeds. What is deepest or rare at one door varies by a half from seed to seed.
 //! - Starts: the crossing with other seeds, up to 8 s.
 //! - Lanes: thirty agents, each alone in its lane, start at one time, walk 12 m, stop and stand; their starts also with
 //!   other seeds.
@@ -42,6 +43,10 @@ const START_S: f32 = 8.1;
 const FILES: [ScenarioFile; 2] = [scenario_file!("crossing.toml"), scenario_file!("bottleneck.toml")];
 /// The two streams that cross.
 const CROSSING: ScenarioFile = FILES[0];
+/// The door.
+const DOOR: ScenarioFile = FILES[1];
+/// Seeds of the doors.
+const DOOR_SEEDS: std::ops::RangeInclusive<u64> = 2..=5;
 /// Names of the antipodal circle and of the crowds of Table 1, and their durations, s.
 const TABLE1: [(&str, f32); 3] = [("circle_17", 18.0), ("bidir_53", 60.0), ("cross4_100", 60.0)];
 /// Number of lanes, their distance (m), the distance that agents walk (m), and the duration (s).
@@ -74,6 +79,8 @@ pub(crate) struct PeopleRuns {
     pub(crate) crowds: Vec<CrowdRun>,
     /// All crowds together.
     pub(crate) pooled: PeopleMeasures,
+    /// The doors, a run for each seed.
+    pub(crate) doors: Vec<CrowdRun>,
     /// The starts, a run for each seed.
     pub(crate) starts: Vec<PeopleMeasures>,
     /// The starts in lanes, a run for each seed.
@@ -95,19 +102,23 @@ pub(crate) fn run(
 ) -> Result<PeopleRuns, BenchError> {
     let crowds = crowds()?;
     let crowd_count = crowds.len();
+    let doors = DOOR_SEEDS.map(|seed| seeded(DOOR, seed)).collect::<Result<Vec<Scenario>, BenchError>>()?;
+    let door_count = doors.len();
     let starts = START_SEEDS.map(|seed| Ok(Scenario { duration_s: START_S, ..seeded(CROSSING, seed)? }));
     let starts = starts.collect::<Result<Vec<Scenario>, BenchError>>()?;
     let breadth_m = shoulder_breadth_m(&db.skeleton);
     let gaps = [wall_gap, agent_gap].into_iter().flat_map(|gap| GAPS.map(|width| gap(breadth_m, width * breadth_m)));
     let lane_starts = START_SEEDS.map(|seed| Scenario { seed, duration_s: START_S, ..lanes() });
     let scenarios: Vec<Scenario> =
-        crowds.into_iter().chain(starts).chain(lane_starts).chain([lanes()]).chain(gaps).collect();
+        crowds.into_iter().chain(doors).chain(starts).chain(lane_starts).chain([lanes()]).chain(gaps).collect();
     let scenarios: Vec<Scenario> = scenarios.into_iter().map(|scenario| prepared(scenario, prepare)).collect();
     let mut runs = run_each_on_one_thread(scenarios.len(), observer, |index| simulate(db, &scenarios[index]))?;
     let gaps = runs.split_off(runs.len() - 2 * GAPS.len());
     let Some(lanes) = runs.pop() else { return Ok(PeopleRuns::empty()) };
-    let mut starts: Vec<PeopleMeasures> = runs.split_off(crowd_count).into_iter().map(|run| run.people).collect();
+    let starts = runs.split_off(crowd_count + door_count).into_iter().map(|run| run.people);
+    let mut starts: Vec<PeopleMeasures> = starts.collect();
     let lane_starts = starts.split_off(starts.len() / 2);
+    let doors = runs.split_off(crowd_count);
     let mut pooled = PeopleTally::default();
     runs.iter().flat_map(|run| &run.tracks).for_each(|track| pooled.add(track));
     let turn_deg = |kind: usize| {
@@ -120,6 +131,7 @@ pub(crate) fn run(
     Ok(PeopleRuns {
         pooled: pooled.finish(SoleSlide::default()),
         crowds: runs,
+        doors,
         starts,
         lane_starts,
         lanes: lanes.people,
@@ -133,6 +145,7 @@ impl PeopleRuns {
         Self {
             crowds: Vec::new(),
             pooled: PeopleMeasures::default(),
+            doors: Vec::new(),
             starts: Vec::new(),
             lane_starts: Vec::new(),
             lanes: PeopleMeasures::default(),
