@@ -19,8 +19,8 @@ pub(crate) struct McnMemory {
     pub(crate) of_walls: Vec<HalfPlane>,
     /// C_ij: half-planes of agents and of the queue, which the programs of both velocity sets share.
     pub(crate) of_agents: Vec<HalfPlane>,
-    /// q: share by which the agent queues ([`crate::planning::mcn::avoidance`]), 0 to 1.
-    pub(crate) queueing_share: f32,
+    /// Speed below which the agent's body stands rather than go backward ([`crate::planning::mcn::avoidance`]), m/s.
+    pub(crate) back_min_mps: f32,
     /// Half-planes of each velocity set's program, by rank.
     pub(crate) programs: [Vec<HalfPlane>; 2],
     /// The velocity set that was chosen.

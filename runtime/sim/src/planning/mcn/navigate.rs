@@ -75,7 +75,7 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
     };
     Plan {
         velocity_mps,
-        waits: waits(world, agent, memory.surroundings.neighbours.as_slice(), memory.queueing_share, velocity_mps),
+        waits: waits(world, agent, memory, velocity_mps),
         facing_rad: libm::atan2f(facing.y, facing.x),
         time_to_collision_s: memory.surroundings.time_to_collision_s(world, agent),
         density,

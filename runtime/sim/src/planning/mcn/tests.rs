@@ -16,21 +16,22 @@ use crate::world::obstacles::Obstacles;
 
 /// A scene of agents that face and prefer +x at 1.3 m/s, and everything else that a world view borrows.
 #[derive(Clone)]
-struct Scene {
-    positions_m: Vec<Vec2>,
-    velocities_mps: Vec<Vec2>,
+pub(crate) struct Scene {
+    pub(crate) positions_m: Vec<Vec2>,
+    pub(crate) velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
-    preferred_mps: Vec<Vec2>,
+    pub(crate) preferred_mps: Vec<Vec2>,
     stances: Vec<Stance>,
     obstacles: Obstacles,
     construction: Construction,
     turning_mps: Vec<Vec2>,
-    params: Params,
+    pub(crate) params: Params,
     dt_s: f32,
     bodies: bool,
 }
 
-const WALK: Vec2 = Vec2::new(1.3, 0.0);
+/// Velocity of a walk along +x, m/s.
+pub(crate) const WALK: Vec2 = Vec2::new(1.3, 0.0);
 
 /// Corners of a kite-shaped velocity set, clockwise.
 fn kite(ahead: f32, aside: f32, back: f32) -> Vec<Vec2> {
@@ -38,7 +39,7 @@ fn kite(ahead: f32, aside: f32, back: f32) -> Vec<Vec2> {
 }
 
 impl Scene {
-    fn new(positions_m: &[[f32; 2]]) -> Self {
+    pub(crate) fn new(positions_m: &[[f32; 2]]) -> Self {
         let count = positions_m.len();
         Self {
             positions_m: positions_m.iter().copied().map(Vec2::from).collect(),
@@ -56,7 +57,7 @@ impl Scene {
     }
 
     /// The first agent's plan by MCN.
-    fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> Plan {
         self.plan_by(Planner::Mcn, &mut PlannerMemory::default())
     }
 
@@ -220,7 +221,7 @@ fn paper_construction_turns_instead_of_stepping_back() {
 }
 
 /// Checks a switch on a scene in which its part matters and one in which it does not.
-fn check_switch(matters: &Scene, does_not: &Scene, off: impl Fn(&mut McnParts)) {
+pub(crate) fn check_switch(matters: &Scene, does_not: &Scene, off: impl Fn(&mut McnParts)) {
     let without = |scene: &Scene| {
         let mut params = scene.params.clone();
         off(&mut params.planner.parts);
@@ -244,7 +245,7 @@ fn dense() -> Scene {
 }
 
 /// A lone agent with a preferred velocity.
-fn alone(preferred_mps: Vec2) -> Scene {
+pub(crate) fn alone(preferred_mps: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0]]);
     scene.preferred_mps[0] = preferred_mps;
     scene
@@ -254,78 +255,6 @@ fn alone(preferred_mps: Vec2) -> Scene {
 fn adaptation_and_keeping_right_matter_in_an_encounter() {
     check_switch(&encounter(), &Scene::new(&[[0.0, 0.0], [0.0, 5.0]]), |parts| parts.adaptation = false);
     check_switch(&encounter(), &Scene::new(&[[0.0, 0.0]]), |parts| parts.keep_right = false);
-}
-
-/// An agent that stands; the next one stands close ahead, goes in a direction, and steps back.
-fn pushed_back(way: Vec2) -> Scene {
-    let mut scene = Scene::new(&[[0.0, 0.0], [0.52, 0.0]]);
-    scene.velocities_mps = vec![Vec2::ZERO, -0.3 * WALK];
-    scene.preferred_mps[1] = way;
-    scene
-}
-
-#[test]
-fn an_agent_holds_its_place_in_a_queue_alone() {
-    check_switch(&pushed_back(WALK), &pushed_back(WALK.perp()), |parts| parts.queueing = false);
-    let [queues, meets] = [WALK, -WALK].map(|way| pushed_back(way).plan().velocity_mps.x);
-    assert!(queues > 0.5 * meets && meets < -0.05, "{queues} {meets}");
-}
-
-/// An agent stands between two others; a third, ahead, overlaps it. The three prefer a velocity.
-fn crowded(way: Vec2) -> Scene {
-    let mut scene = Scene::new(&[[0.0, 0.0], [0.48, 0.0], [0.05, 0.5], [0.05, -0.5]]);
-    scene.velocities_mps.fill(Vec2::ZERO);
-    scene.preferred_mps[1..].fill(way);
-    scene
-}
-
-#[test]
-fn a_body_waits_in_a_queue_alone() {
-    let plans = [WALK, -WALK, WALK.perp()].map(|way| crowded(way).plan());
-    assert!(plans.iter().all(|plan| plan.velocity_mps.x < 0.0), "{plans:?}");
-    assert_eq!(plans.map(|plan| plan.waits), [true, false, false]);
-    // Chests do not overlap.
-    let mut inside = crowded(WALK);
-    inside.positions_m[1].x = 0.38;
-    assert!(!inside.plan().waits);
-    // It yields to one that comes back at a walk.
-    let mut walked_into = crowded(WALK);
-    walked_into.velocities_mps[1] = -WALK;
-    let plan = walked_into.plan();
-    assert!(!plan.waits && plan.velocity_mps.x < -0.2, "{plan:?}");
-}
-
-/// An agent before its goal; the next one walks close behind, and prefers a velocity.
-fn followed(preferred_mps: Vec2) -> Scene {
-    let mut scene = Scene::new(&[[0.0, 0.0], [-0.7, 0.0]]);
-    scene.velocities_mps = vec![WALK; 2];
-    scene.preferred_mps = vec![0.3 * WALK, preferred_mps];
-    scene
-}
-
-#[test]
-fn an_agent_brakes_before_its_goal_with_another_behind() {
-    check_switch(&followed(WALK), &alone(0.3 * WALK), |parts| parts.slowing = false);
-    let mut scene = followed(WALK);
-    let [alone_mps, with_mps] = [alone(0.3 * WALK), scene.clone()].map(|scene| scene.plan().velocity_mps.x);
-    scene.params.planner.parts.slowing = false;
-    let without_mps = scene.plan().velocity_mps.x;
-    assert!(with_mps < without_mps && with_mps < alone_mps + 0.02, "{alone_mps} {with_mps} {without_mps}");
-}
-
-/// An agent that stands; the next one stands in contact ahead, and prefers a velocity.
-fn in_contact(preferred_mps: Vec2) -> Scene {
-    let mut scene = Scene::new(&[[0.0, 0.0], [0.5, 0.0]]);
-    scene.velocities_mps = vec![Vec2::ZERO; 2];
-    scene.preferred_mps[1] = preferred_mps;
-    scene
-}
-
-#[test]
-fn an_agent_at_rest_presses_on_except_in_a_queue() {
-    check_switch(&in_contact(WALK.perp()), &in_contact(WALK), |parts| parts.pressing = false);
-    let [across, alike] = [WALK.perp(), WALK].map(|preferred_mps| in_contact(preferred_mps).plan().velocity_mps.x);
-    assert!(across > alike + 0.05, "{across} {alike}");
 }
 
 #[test]

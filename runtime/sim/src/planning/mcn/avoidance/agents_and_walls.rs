@@ -4,8 +4,8 @@
 
 use glam::Vec2;
 
-use crate::planning::mcn::avoidance::pressing::with_pressing;
-use crate::planning::mcn::avoidance::queueing::{queue_half_plane, queueing_share};
+use crate::planning::mcn::avoidance::pressing::{greatest_conflict, with_pressing};
+use crate::planning::mcn::avoidance::queueing::{back_min_mps, queue_half_plane, queueing_share};
 use crate::planning::mcn::avoidance::slowing::with_slowing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::params::{McnParams, McnParts};
@@ -55,9 +55,14 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
         let half_plane = agent_half_plane(own_mps, &neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
-    memory.queueing_share =
-        if params.parts.queueing { queueing_share(world, agent, neighbours.as_slice(), &weights) } else { 0.0 };
-    memory.of_agents.extend(queue_half_plane(world, agent, memory.queueing_share));
+    memory.back_min_mps = 0.0;
+    if params.parts.queueing {
+        let neighbours = neighbours.as_slice();
+        let share = queueing_share(world, agent, neighbours, &weights);
+        let conflict = if params.parts.pressing { greatest_conflict(world, agent, neighbours) } else { 0.0 };
+        memory.back_min_mps = back_min_mps(share, conflict);
+        memory.of_agents.extend(queue_half_plane(world, agent, share));
+    }
 }
 
 /// An agent's velocity, and one of its neighbours, as half-planes take them: with what both gain by right of way, by

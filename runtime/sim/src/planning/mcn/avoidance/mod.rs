@@ -10,6 +10,8 @@ mod agents_and_walls;
 mod pressing;
 mod queueing;
 mod slowing;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use agents_and_walls::avoid;
 pub(crate) use queueing::waits;

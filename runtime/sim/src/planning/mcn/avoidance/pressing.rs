@@ -11,8 +11,10 @@
 //! nearness, which falls from 1 in contact to 0 at the gap D, agent i gains against its neighbour j
 //!
 //! ```text
-//! n · r_i · min(1, |e_i - e_j|²) · (v_pref_i - v_i),  the last factor limited to P.
+//! n · min(1, |e_i - e_j|²) · r_i · (v_pref_i - v_i),  the last factor limited to P.
 //! ```
+//!
+//! The first two factors are the *conflict* of both agents.
 //!
 //! Agents that queue prefer the same direction, and do not press: in a full hall their pressure would add up. Agents
 //! that prefer to stand are pressed, so that others get past them (docs/tuning.md).
@@ -38,18 +40,31 @@ pub(crate) fn with_pressing(
     own_mps: Vec2,
     neighbour: &Neighbour,
 ) -> (Vec2, Neighbour) {
-    let nearness = 1.0 - (neighbour.distance_m - neighbour.radius_m).max(0.0) / GAP_MAX_M;
-    if nearness <= 0.0 {
+    let conflict = conflict(world, agent, neighbour);
+    if conflict <= 0.0 {
         return (own_mps, *neighbour);
     }
     let other = neighbour.agent as usize;
-    let [own_direction, other_direction] = [agent, other].map(|agent| world.preferred_direction(agent));
-    let strength = nearness * own_direction.distance_squared(other_direction).min(1.0);
     let gain_mps = |agent: usize, velocity_mps: Vec2| {
         let rest = (1.0 - velocity_mps.length() / MOVING_MPS).max(0.0);
-        strength * rest * (world.preferred_mps[agent] - velocity_mps).clamp_length_max(GAIN_MAX_MPS)
+        conflict * rest * (world.preferred_mps[agent] - velocity_mps).clamp_length_max(GAIN_MAX_MPS)
     };
     let own_gain_mps = gain_mps(agent, own_mps);
     let other_gain_mps = gain_mps(other, own_mps - neighbour.relative_mps);
     (own_mps + own_gain_mps, neighbour.with_gains(own_gain_mps, other_gain_mps))
+}
+
+/// max_j n · min(1, |e_i - e_j|²): the greatest conflict of an agent with a neighbour near by, 0 to 1.
+pub(crate) fn greatest_conflict(world: &WorldView, agent: usize, neighbours: &[Neighbour]) -> f32 {
+    neighbours.iter().map(|neighbour| conflict(world, agent, neighbour)).fold(0.0, f32::max)
+}
+
+/// n · min(1, |e_i - e_j|²): how near a neighbour is that prefers another direction, 0 to 1.
+fn conflict(world: &WorldView, agent: usize, neighbour: &Neighbour) -> f32 {
+    let nearness = 1.0 - (neighbour.distance_m - neighbour.radius_m).max(0.0) / GAP_MAX_M;
+    if nearness <= 0.0 {
+        return 0.0;
+    }
+    let [own, other] = [agent, neighbour.agent as usize].map(|agent| world.preferred_direction(agent));
+    nearness * own.distance_squared(other).min(1.0)
 }

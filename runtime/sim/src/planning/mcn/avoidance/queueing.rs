@@ -13,13 +13,15 @@
 //! ```
 //!
 //! and the weight of the half-plane is W·q. Discs that overlap by a millimetre still part at .1 m/s and more. People in a
-//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q stands instead,
-//! unless its disc overlaps another by more than D.
+//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q·(1 − P·p) stands
+//! instead, unless its disc overlaps another by more than D. Arches before doors dissolve only because bodies step back. So
+//! this speed falls with the greatest conflict p of the agent with a neighbour near by (`pressing`).
 //!
 //! World axes, m/s.
 
 use glam::Vec2;
 
+use crate::planning::mcn::memory::McnMemory;
 use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::world_view::WorldView;
 use crate::world::neighbours::Neighbour;
@@ -32,8 +34,10 @@ const WEIGHT: f32 = 0.7;
 const WEIGHT_MIN: f32 = 0.02;
 /// C: speed below which no body goes backward where all agents ahead go the same way, m/s (docs/tuning.md).
 const BACK_MIN_MPS: f32 = 0.45;
+/// P: share of C·q that an agent loses that is in conflict with one in contact (docs/tuning.md).
+const CONFLICT_SHARE: f32 = 0.5;
 /// D: overlap of two discs from which bodies part, m: shoulders yield that much, chests do not (docs/tuning.md).
-const OVERLAP_MAX_M: f32 = 0.1;
+const OVERLAP_MAX_M: f32 = 0.05;
 /// Cosine of the angle to the direction against v_pref within which a velocity leads backward: 78°. The half-plane brings
 /// many velocities to 90°, where rounding would decide.
 const BACK_COS: f32 = 0.2;
@@ -58,15 +62,15 @@ pub(crate) fn queue_half_plane(world: &WorldView, agent: usize, queueing_share: 
     (weight > WEIGHT_MIN).then_some(HalfPlane { weight, ..half_plane })
 }
 
-/// Whether the body of an agent that queues by a share stands, rather than go backward at a planned velocity.
-pub(crate) fn waits(
-    world: &WorldView,
-    agent: usize,
-    neighbours: &[Neighbour],
-    queueing_share: f32,
-    velocity_mps: Vec2,
-) -> bool {
+/// C·q·(1 − P·p): speed below which the body of an agent does not go backward, m/s, given q and p.
+pub(crate) fn back_min_mps(queueing_share: f32, greatest_conflict: f32) -> f32 {
+    BACK_MIN_MPS * queueing_share * (1.0 - CONFLICT_SHARE * greatest_conflict)
+}
+
+/// Whether the body of an agent stands, rather than go backward at a planned velocity.
+pub(crate) fn waits(world: &WorldView, agent: usize, memory: &McnMemory, velocity_mps: Vec2) -> bool {
     let is_apart = |neighbour: &Neighbour| neighbour.radius_m - neighbour.distance_m <= OVERLAP_MAX_M;
     let (speed_mps, back_mps) = (velocity_mps.length(), -world.preferred_direction(agent).dot(velocity_mps));
-    back_mps > BACK_COS * speed_mps && speed_mps < BACK_MIN_MPS * queueing_share && neighbours.iter().all(is_apart)
+    let goes_back = back_mps > BACK_COS * speed_mps;
+    goes_back && speed_mps < memory.back_min_mps && memory.surroundings.neighbours.as_slice().iter().all(is_apart)
 }
