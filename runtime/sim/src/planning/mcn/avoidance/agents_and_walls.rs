@@ -32,7 +32,8 @@ const PARTING_MIN_S: f32 = 0.05;
 /// corner that its disc grazes. With it, walls hold no disc in `fbcrowd bench course`.
 const WALL_MARGIN_M: f32 = 0.012;
 
-/// Eq. 12: computes the half-planes of walls and agents, and of the queue, into the memory.
+/// Eq. 12: computes the half-planes of walls, agents and the queue into the memory, and the speed below which the body
+/// waits.
 pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) {
     let own = world.disc(agent);
     memory.of_walls.clear();

@@ -13,9 +13,9 @@
 //! ```
 //!
 //! and the weight of the half-plane is W·q. Discs that overlap by a millimetre still part at .1 m/s and more. People in a
-//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q·(1 − P·p) stands
-//! instead, unless its disc overlaps another by more than D. Arches before doors dissolve only because bodies step back. So
-//! this speed falls with the greatest conflict p of the agent with a neighbour near by (`pressing`).
+//! throng touch, and do not step back for it: a body whose agent plans to go backward at less than C·q·(1 − P·p)
+//! stands instead, unless its disc overlaps another by more than D. Arches before doors dissolve only because bodies step
+//! back. So this speed falls with the greatest conflict p of the agent with a neighbour near by (`pressing`).
 //!
 //! World axes, m/s.
 
