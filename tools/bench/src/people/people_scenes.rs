@@ -100,27 +100,22 @@ pub(crate) fn run(
     prepare: fn(&mut Scenario),
     observer: &Observer,
 ) -> Result<PeopleRuns, BenchError> {
-    let crowds = crowds()?;
-    let crowd_count = crowds.len();
-    let doors = DOOR_SEEDS.map(|seed| seeded(DOOR, seed)).collect::<Result<Vec<Scenario>, BenchError>>()?;
-    let door_count = doors.len();
-    let starts = START_SEEDS.map(|seed| Ok(Scenario { duration_s: START_S, ..seeded(CROSSING, seed)? }));
-    let starts = starts.collect::<Result<Vec<Scenario>, BenchError>>()?;
     let breadth_m = shoulder_breadth_m(&db.skeleton);
+    let doors = DOOR_SEEDS.map(|seed| seeded(DOOR, seed)).collect::<Result<_, _>>()?;
+    let starts = START_SEEDS.map(|seed| Ok(Scenario { duration_s: START_S, ..seeded(CROSSING, seed)? }));
+    let starts = starts.collect::<Result<_, BenchError>>()?;
+    let lane_starts = START_SEEDS.map(|seed| Scenario { seed, duration_s: START_S, ..lanes() }).collect();
     let gaps = [wall_gap, agent_gap].into_iter().flat_map(|gap| GAPS.map(|width| gap(breadth_m, width * breadth_m)));
-    let lane_starts = START_SEEDS.map(|seed| Scenario { seed, duration_s: START_S, ..lanes() });
-    let scenarios: Vec<Scenario> =
-        crowds.into_iter().chain(doors).chain(starts).chain(lane_starts).chain([lanes()]).chain(gaps).collect();
-    let scenarios: Vec<Scenario> = scenarios.into_iter().map(|scenario| prepared(scenario, prepare)).collect();
-    let mut runs = run_each_on_one_thread(scenarios.len(), observer, |index| simulate(db, &scenarios[index]))?;
-    let gaps = runs.split_off(runs.len() - 2 * GAPS.len());
-    let Some(lanes) = runs.pop() else { return Ok(PeopleRuns::empty()) };
-    let starts = runs.split_off(crowd_count + door_count).into_iter().map(|run| run.people);
-    let mut starts: Vec<PeopleMeasures> = starts.collect();
-    let lane_starts = starts.split_off(starts.len() / 2);
-    let doors = runs.split_off(crowd_count);
+    let groups: [Vec<Scenario>; 6] = [crowds()?, doors, starts, lane_starts, vec![lanes()], gaps.collect()];
+    let counts = groups.each_ref().map(Vec::len);
+    let scenarios: Vec<Scenario> = groups.into_iter().flatten().map(|scenario| prepared(scenario, prepare)).collect();
+    let mut runs =
+        run_each_on_one_thread(scenarios.len(), observer, |index| simulate(db, &scenarios[index]))?.into_iter();
+    let [crowds, doors, starts, lane_starts, lanes, gaps] =
+        counts.map(|count| runs.by_ref().take(count).collect::<Vec<CrowdRun>>());
     let mut pooled = PeopleTally::default();
-    runs.iter().flat_map(|run| &run.tracks).for_each(|track| pooled.add(track));
+    crowds.iter().flat_map(|run| &run.tracks).for_each(|track| pooled.add(track));
+    let people = |runs: Vec<CrowdRun>| runs.into_iter().map(|run| run.people);
     let turn_deg = |kind: usize| {
         [0, 1].map(|which| {
             let half_m = 0.5 * GAPS[which] * breadth_m;
@@ -130,30 +125,17 @@ pub(crate) fn run(
     };
     Ok(PeopleRuns {
         pooled: pooled.finish(SoleSlide::default()),
-        crowds: runs,
+        crowds,
         doors,
-        starts,
-        lane_starts,
-        lanes: lanes.people,
+        starts: people(starts).collect(),
+        lane_starts: people(lane_starts).collect(),
+        lanes: people(lanes).next().unwrap_or_default(),
         turns: turns(db),
         shoulders_deg: [0, 1].map(turn_deg),
     })
 }
 
 impl PeopleRuns {
-    fn empty() -> Self {
-        Self {
-            crowds: Vec::new(),
-            pooled: PeopleMeasures::default(),
-            doors: Vec::new(),
-            starts: Vec::new(),
-            lane_starts: Vec::new(),
-            lanes: PeopleMeasures::default(),
-            turns: PeopleMeasures::default(),
-            shoulders_deg: [[None; 2]; 2],
-        }
-    }
-
     /// The crowd of a name.
     pub(crate) fn crowd(&self, name: &str) -> Option<&CrowdRun> {
         self.crowds.iter().find(|run| run.name == name)

@@ -3,7 +3,7 @@
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
 use glam::Vec2;
-use motiondb::body::Root;
+use motiondb::body::{Root, RootFrame};
 use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::blending::example_mix::advanced_phase;
@@ -206,7 +206,7 @@ impl MotionState {
         step: &TimeStep,
     ) {
         match self.transition {
-            Some(played) => self.play(played, root.forward(), &context.db, step),
+            Some(played) => self.play(played, &root.frame(), &context.db, step),
             None => {
                 self.time_steps(root, target, stops, context, step);
                 self.advance_phase(step.dt_s * rate_factor * self.timing.pace, context);
@@ -214,12 +214,12 @@ impl MotionState {
         }
     }
 
-    /// Plays a recorded transition over one step, under a root that faces `forward`.
-    fn play(&mut self, mut played: PlayedTransition, forward: Vec2, db: &MotionDb, step: &TimeStep) {
-        let (velocity_mps, to_local) = (self.current(db).velocity_mps(), Vec2::new(forward.x, -forward.y));
-        let pace = played.pace(velocity_mps, to_local.rotate(self.timing.lead_m), db);
+    /// Plays a recorded transition over one step, under a root of some frame.
+    fn play(&mut self, mut played: PlayedTransition, root: &RootFrame, db: &MotionDb, step: &TimeStep) {
+        let velocity_mps = self.current(db).velocity_mps();
+        let pace = played.pace(velocity_mps, root.vector_to_local(self.timing.lead_m), db);
         let ahead_m = played.advance(step.dt_s * pace, db) - step.dt_s * velocity_mps;
-        self.timing.follow_clip(pace, forward.rotate(ahead_m));
+        self.timing.follow_clip(pace, root.forward.rotate(ahead_m));
         (self.phase, self.transition) = (played.phase(db), Some(played));
     }
 

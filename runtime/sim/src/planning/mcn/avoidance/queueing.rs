@@ -34,7 +34,7 @@ const WEIGHT: f32 = 0.7;
 const WEIGHT_MIN: f32 = 0.02;
 /// C: speed below which no body goes backward where all agents ahead go the same way, m/s (docs/tuning.md).
 const BACK_MIN_MPS: f32 = 0.45;
-/// P: share of C·q that an agent loses that is in conflict with one in contact (docs/tuning.md).
+/// P: share by which that speed falls for an agent in full conflict with a neighbour (docs/tuning.md).
 const CONFLICT_SHARE: f32 = 0.5;
 /// D: overlap of two discs from which bodies part, m: shoulders yield that much, chests do not (docs/tuning.md).
 const OVERLAP_MAX_M: f32 = 0.05;
