@@ -55,7 +55,9 @@ mod door_waiting;
 mod doors;
 mod moving_doors;
 mod path_walker;
+mod places_behind;
 mod source_state;
+mod taken_goals;
 mod turnover;
 mod walking_groups;
 mod zones;
@@ -217,6 +219,7 @@ impl Simulation {
         self.follow_paths();
         self.walk_together();
         self.wait_before_doors();
+        self.stand_around_goals();
         self.apply_zones();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;

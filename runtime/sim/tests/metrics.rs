@@ -49,10 +49,15 @@ fn without_an_arrival_there_is_no_time_to_goal() {
 
 #[test]
 fn five_seconds_of_standing_stall_before_arrival_only() {
-    let stood = |steps: i32, goal: f32, test| measured(test, &walker(goal), &path((0..=steps).map(|_| 0.0))).stalled;
-    assert_eq!(stood(49, 9.0, "stall_short"), 0);
-    assert_eq!(stood(50, 9.0, "stall"), 1);
-    assert_eq!(stood(90, 0.3, "stall_arrived"), 0);
+    let stood = |steps: i32, goal: f32, preferred_mps: Vec2, test| {
+        let mut frames = path((0..=steps).map(|_| 0.0));
+        frames.iter_mut().for_each(|frame| frame[0].preferred_mps = preferred_mps);
+        measured(test, &walker(goal), &frames).stalled
+    };
+    assert_eq!(stood(49, 9.0, Vec2::X, "stall_short"), 0);
+    assert_eq!(stood(50, 9.0, Vec2::X, "stall"), 1);
+    assert_eq!(stood(90, 0.3, Vec2::X, "stall_arrived"), 0);
+    assert_eq!(stood(90, 9.0, Vec2::ZERO, "wants_to_stand"), 0);
 }
 
 #[test]

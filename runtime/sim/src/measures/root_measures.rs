@@ -235,9 +235,10 @@ impl RootTrack {
         }
     }
 
-    /// Counts steps in which the agent stands. An agent whose state lets it wait, at a signal, does not stall.
+    /// Counts steps in which the agent stands. An agent that does not want to walk does not stall: it has not begun, waits
+    /// at a signal, door or one-way zone, or stands behind others that have taken its goal.
     fn watch_for_stall(&mut self, after: &AgentFrame, dt_s: f64) {
-        let waits = after.state != 0 && after.preferred_mps == Vec2::ZERO;
+        let waits = after.preferred_mps == Vec2::ZERO;
         let slow = self.velocity_mps.length() < STALL_SPEED_MPS && !waits;
         self.slow_steps = if slow { self.slow_steps + 1 } else { 0 };
         // Half a step of tolerance, since dt is not exact in binary.

@@ -31,6 +31,8 @@ pub struct PathProgress {
     pub next: u32,
     /// Whether it has reached the last one and stays there.
     pub arrived: bool,
+    /// Its rank behind others that have taken its last goal; 0 where it does not stand behind others.
+    pub rank_behind: u32,
 }
 
 impl PathProgress {
@@ -341,7 +343,8 @@ mod tests {
     fn a_body_that_coasts_brakes_and_arrives_earlier() {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let moved = |left_m: f32, velocity_mps: Vec2, arrived: bool| {
-            let (position_m, mut progress) = (Vec2::new(5.0 - left_m, 0.0), PathProgress { next: 0, arrived });
+            let (position_m, mut progress) =
+                (Vec2::new(5.0 - left_m, 0.0), PathProgress { arrived, ..Default::default() });
             (coasting_on_open_ground_mps(&agent, position_m, velocity_mps, &mut progress).x, progress.arrived)
         };
         let coast_m = COAST_S * 1.25;
@@ -382,7 +385,7 @@ mod tests {
         let routes =
             CrowdRoutes::new(&Scenario { obstacles_m: vec![post_m], ..Scenario::of(vec![agent.clone()]) }).unwrap();
         let view = view(&routes, &obstacles, Vec2::ZERO);
-        let mut progress = PathProgress { next: 1, arrived: false };
+        let mut progress = PathProgress { next: 1, ..Default::default() };
         let mut motion = |x_m, y_m| {
             let motion =
                 preferred_motion(&agent, Vec2::new(x_m, y_m), &view, &mut progress, &mut RouteMemory::default());

@@ -103,7 +103,7 @@ impl Simulation {
 
     fn walk_abreast(&mut self, members: &[usize]) {
         let walkers: Vec<Walker> = members.iter().filter_map(|&index| self.walker(index)).collect();
-        // A member that stands has arrived; the others go to their own positions.
+        // A member that stands has arrived, or stands behind others; the rest go to their own positions.
         if walkers.len() < members.len() || walkers.len() < 2 {
             return;
         }
@@ -132,6 +132,9 @@ impl Simulation {
     fn walker(&self, index: usize) -> Option<Walker> {
         let preferred_mps = self.agents.preferred_mps[index];
         let spec = self.population.spec(self.agents.ids[index]);
+        if self.agents.progress[index].rank_behind > 0 {
+            return None;
+        }
         let state = self.crowd.agents.get(index);
         let preferred_speed_mps = state.map_or(spec.preferred_speed_mps, |state| state.traits.preferred_speed_mps);
         Some(Walker {

@@ -34,7 +34,7 @@ pub struct MeasuresMirror {
     /// Number of agents that came within 0.5 m of their last goal after their waypoints; those that begin in a state:
     /// that entered a final state, or were removed.
     arrived: usize,
-    /// Number of agents that stayed under 0.1 m/s for 5 s before arrival.
+    /// Number of agents that wanted to walk and stayed under 0.1 m/s for 5 s before arrival.
     stalled: usize,
     /// Mean time from birth until arrival, s; null where no agent arrived.
     mean_time_to_goal_s: Option<f64>,

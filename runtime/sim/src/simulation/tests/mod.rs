@@ -23,6 +23,7 @@ mod places;
 mod priority;
 mod route;
 mod stature;
+mod taken_goals;
 mod turning;
 mod turnover;
 mod wild_behaviour;

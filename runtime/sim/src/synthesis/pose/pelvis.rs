@@ -9,7 +9,7 @@
 //! ```
 //!
 //! - *Deformed walk*: the pelvis keeps its height above the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
-//!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by a share of it.
+//!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by the softness at most.
 //! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at
 //!   the pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of
 //!   both legs'.
@@ -40,9 +40,6 @@ const MEETING_MPS2: f32 = 4.0;
 /// Height by which the pelvis may be above the drop that held feet need, m: what straight legs still have beyond
 /// [`EXTENSION`](crate::synthesis::pose::leg_length::EXTENSION).
 const LATE_MAX_M: f32 = 0.006;
-/// Share of a negative D by which the pelvis rises in a deformed walk. At 1, short strides would lift the pelvis higher
-/// at foot strike than at mid-stance.
-const RISE_SHARE: f32 = 0.45;
 /// Softness for deformed walks, m: what a knee flexed by 15° lacks until its leg is straight.
 const DEFORMED_SOFTNESS_M: f32 = 0.006;
 
@@ -94,7 +91,7 @@ pub(crate) fn deformed_drop_m(legs: &[PosedLeg; 2], targets: &[FootPose; 2]) -> 
     let [[left_m, left_own_m], [right_m, right_own_m]] =
         needed_drops_m(legs, &legs.each_ref().map(PosedLeg::foot), targets);
     let drop_m = soft_greater_m(left_m, right_m) - soft_greater_m(left_own_m, right_own_m);
-    (RISE_SHARE * drop_m + (1.0 - RISE_SHARE) * soft_positive_m(drop_m)).min(DROP_MAX_M)
+    soft_positive_m(drop_m).min(DROP_MAX_M)
 }
 
 /// Soft positive part of a length, m: 0 at 0, and at most the softness below the length.

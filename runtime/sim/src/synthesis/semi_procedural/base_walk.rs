@@ -11,7 +11,7 @@
 //! the measurements behind the constants.
 
 use glam::{Quat, Vec2, Vec3};
-use motiondb::body::JOINT_COUNT;
+use motiondb::body::{Foot, JOINT_COUNT, Joint};
 use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap};
 
 use crate::maths::angle::unit_vector;
@@ -48,6 +48,9 @@ const TURN_MAX_RAD_S: f32 = 3.0;
 /// Greatest lean of a body on an arc, rad (20°).
 const LEAN_MAX_RAD: f32 = 0.35;
 
+/// Row of the mid-stance of each foot.
+const MID_STANCE_ROWS: [usize; 2] = [PHASE_COUNT / 2, 0];
+
 /// The base walk, taken apart.
 #[derive(Clone, Debug)]
 pub struct BaseWalk {
@@ -71,6 +74,11 @@ pub struct BaseWalk {
     pub(crate) lowest_phase: f32,
     /// Mean height of the hips of a body that does not lean, m.
     pub(crate) mean_hips_m: f32,
+    /// Greatest height of the hips, m.
+    pub(crate) top_hips_m: f32,
+    /// Displacement forward that brings the middle of each foot's sole under the hips at mid-stance, m: there it is in a
+    /// body that stands, while a walk leans over its feet.
+    pub(crate) to_standing_m: [f32; 2],
     /// Mean rotation of each joint over the cycle.
     pub(crate) mean_rotations: [Quat; JOINT_COUNT],
     /// Greatest difference between the carried times of both feet, s.
@@ -108,6 +116,12 @@ impl BaseWalk {
             lean_rad,
             curve_look_rad: curve_look_rad(&mean, m_sp.parameters.turn_rate_rad_s, &db.skeleton),
             mean_hips_m,
+            top_hips_m: rows.iter().map(|joints| joints.positions_m[Joint::Pelvis.index()].z).fold(0.0, f32::max),
+            to_standing_m: [0, 1].map(|side| {
+                let foot = &feet[MID_STANCE_ROWS[side]][side];
+                let Foot { heel_m, ball_m, .. } = db.skeleton.feet[side];
+                -(foot.position_m + foot.orientation * (0.5 * (heel_m + ball_m))).x
+            }),
             contact_phases: [[left_strike, left_off], [right_strike, right_off]],
             landings,
             lowest_phase: 0.5 * (landings[0].after_mid_stance + landings[1].after_mid_stance),
@@ -140,7 +154,7 @@ impl BaseWalk {
 
     /// A foot at its mid-stance.
     pub(crate) fn mid_stance(&self, side: usize) -> &FootPathPoint {
-        &self.feet[if side == 0 { PHASE_COUNT / 2 } else { 0 }][side]
+        &self.feet[MID_STANCE_ROWS[side]][side]
     }
 }
 

@@ -9,6 +9,8 @@
 //!   keep their height above the straighter leg.
 //! - Foot positions move apart in side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - The amplitude of hips, trunk and arms grows with the stride.
+//! - In shorter strides of the toes feet roll and lift less, and stand under the hips as in a body that stands. The hips
+//!   rise and fall by the square of that stride, as on a pendulum.
 //!
 //! [`crate::synthesis::semi_procedural::base_walk`] describes how the feet are carried.
 //!
@@ -42,6 +44,12 @@ const TOE_OUT_SHARE: f32 = 0.7;
 const KNEE_YAW_SHARE: f32 = 0.7;
 /// Share of the angle between travel and facing by which hips twist towards the travel.
 const HIP_TWIST_SHARE: f32 = 0.3;
+/// Stride of the toes from which on feet roll in full, divided by that of m_sp.
+const FULL_STRIDE: f32 = 0.85;
+/// Least stride by which feet roll, divided by that from which on they roll in full.
+const STRIDE_MIN: f32 = 0.15;
+/// Lift of the feet in the shortest stride, divided by that of m_sp: a short step still clears the ground.
+const LIFT_MIN: f32 = 0.4;
 /// Least and greatest amplitude of hips, trunk and arms, divided by that of m_sp.
 const AMPLITUDE_RANGE: [f32; 2] = [0.3, 1.3];
 /// Factor on the drop of the hips at a landing: they are low early enough, and stay low until the other foot leaves.
@@ -56,6 +64,8 @@ pub struct Deformation<'a> {
     parameters: Parameters,
     /// Amplitude of hips, trunk and arms, divided by that of m_sp.
     amplitude: f32,
+    /// Stride of the toes, divided by that from which on feet roll in full, within [`STRIDE_MIN`] and 1.
+    stride: f32,
     /// Lean to the left, rad.
     lean_rad: f32,
     /// Its cosine and sine.
@@ -102,11 +112,14 @@ impl<'a> Deformation<'a> {
         let strafe_apart_m = base.carried_apart_s * soft_size(parameters.strafe_mps) / tempo.cadence;
         let turn_apart_m = FOOT_LENGTH_M * unit_vector((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
         let lean_rad = lean_rad(&parameters);
+        // Strides of the hips and of the toes, divided by that of m_sp.
+        let [hip_stride, toe_stride] = [travel_mps, travel_mps + FOOT_LENGTH_M * soft_size(parameters.turn_rate_rad_s)]
+            .map(|mps| mps / (base.parameters.speed_mps * tempo.cadence));
         let level = Self {
             tempo,
             parameters,
-            amplitude: (travel_mps / (base.parameters.speed_mps * tempo.cadence))
-                .clamp(AMPLITUDE_RANGE[0], AMPLITUDE_RANGE[1]),
+            amplitude: hip_stride.clamp(AMPLITUDE_RANGE[0], AMPLITUDE_RANGE[1]),
+            stride: (toe_stride / FULL_STRIDE).clamp(STRIDE_MIN, 1.0),
             lean_rad,
             lean: unit_vector(lean_rad),
             toe_out_rad: TOE_OUT_SHARE * 0.5 * turn_apart_rad,
@@ -211,20 +224,27 @@ impl<'a> Deformation<'a> {
 
     /// Target of a foot, and its yaw, rad.
     fn foot(&self, skeleton: &Skeleton, contact: f32, instant: &Instant, side: usize) -> (FootPose, f32) {
-        let mut foot = self.mixed_foot(instant, side);
-        foot.position_m += instant.mixture() * contact * self.anti_slip_m(skeleton, &foot, side);
-        self.carried_foot(&foot, side)
+        let foot = self.mixed_foot(instant, side);
+        self.carried_foot(&self.rolled_foot(skeleton, &foot, instant.mixture() * contact, side), side)
     }
 
     fn instant(&self, phase: f32) -> Instant {
         Instant { phases: [phase, wrapped(1.0 - phase)], weights: self.tempo.time_weights }
     }
 
-    /// Scales the deviations of hips, trunk and arms from their means.
+    /// Scales the deviations of hips, trunk and arms from their means, the rise and fall of the hips, and the bend of the
+    /// toes.
     fn scale_amplitude(&self, pose: &mut Pose) {
         let upper = pose.rotations.iter_mut().zip(&self.tempo.base.mean_rotations).take(Joint::LeftThigh.index());
         for (rotation, mean) in upper {
-            *rotation = (*mean * (1.0 - self.amplitude) + *rotation * self.amplitude).normalize();
+            *rotation = scaled_turn(*mean, *rotation, self.amplitude);
+        }
+        pose.pelvis_m.z += (1.0 - self.stride * self.stride) * (self.tempo.base.top_hips_m - pose.pelvis_m.z);
+        for toe in Joint::TOES.map(Joint::index) {
+            let bent = pose.rotations[toe];
+            // ±1 are the same rotation; the nearer one is level.
+            let level = if bent.w < 0.0 { -Quat::IDENTITY } else { Quat::IDENTITY };
+            pose.rotations[toe] = scaled_turn(level, bent, self.stride);
         }
     }
 
@@ -249,15 +269,26 @@ impl<'a> Deformation<'a> {
         FootPathPoint { orientation: mixed.orientation.normalize(), ..mixed }
     }
 
-    /// Displacement that keeps a mixed foot from slipping, m. Its roll and the reversed roll turn about ball and heel,
-    /// so their mean slips; the lower of both points returns to its position at mid-stance.
-    fn anti_slip_m(&self, skeleton: &Skeleton, foot: &FootPathPoint, side: usize) -> Vec3 {
-        let Foot { heel_m, ball_m, .. } = skeleton.feet[side];
-        let [heel_off_m, ball_off_m] = [heel_m, ball_m].map(|point_m| foot.orientation * point_m);
-        let (point_m, off_m) = if heel_off_m.z < ball_off_m.z { (heel_m, heel_off_m) } else { (ball_m, ball_off_m) };
-        let mid_stance = self.tempo.base.mid_stance(side);
-        let slip_m = mid_stance.position_m + mid_stance.orientation * point_m - foot.position_m - off_m;
-        Vec3::new(slip_m.x, slip_m.y, 0.0)
+    /// A foot whose roll and lift fit the stride. It turns about the lower of its heel and ball.
+    ///
+    /// m_sp's roll and the reversed roll turn about ball and heel, so their mean slips: where they mix, a foot that stands
+    /// loses `held_share` of its displacement from mid-stance.
+    fn rolled_foot(&self, skeleton: &Skeleton, foot: &FootPathPoint, held_share: f32, side: usize) -> FootPathPoint {
+        let base = self.tempo.base;
+        let (middle, soles) = (base.mid_stance(side), &skeleton.feet[side]);
+        let point_m = lower_end_m(soles, foot.orientation);
+        let from_ankle_m = foot.orientation * point_m;
+        let middle_m = middle.position_m + middle.orientation * point_m;
+        let ground_m = middle.position_m.z + (middle.orientation * lower_end_m(soles, middle.orientation)).z;
+        let lifted_m = foot.position_m.z + from_ankle_m.z - ground_m;
+        let off_middle_m = (foot.position_m + from_ankle_m - middle_m).truncate();
+        let orientation = scaled_turn(middle.orientation, foot.orientation, self.stride);
+        let to_standing_m = (1.0 - self.stride) * base.to_standing_m[side];
+        let along_m = middle_m.truncate() + Vec2::X * to_standing_m + self.stride * (1.0 - held_share) * off_middle_m
+            - (orientation * point_m).truncate();
+        let lift = LIFT_MIN + (1.0 - LIFT_MIN) * self.stride;
+        let up_m = ground_m + lift * lifted_m - (orientation * lower_end_m(soles, orientation)).z;
+        FootPathPoint { position_m: along_m.extend(up_m), orientation, ..*foot }
     }
 
     /// Target of a foot, carried along the arc of the parameters, and its yaw, rad.
@@ -313,6 +344,17 @@ impl Instant {
         });
         [forward[0], forward[1], reversed[0], reversed[1]]
     }
+}
+
+/// The lower of heel and ball of a foot with an orientation, relative to the ankle in the foot's frame, m.
+fn lower_end_m(foot: &Foot, orientation: Quat) -> Vec3 {
+    let [heel_m, ball_m] = [foot.heel_m, foot.ball_m];
+    if (orientation * heel_m).z < (orientation * ball_m).z { heel_m } else { ball_m }
+}
+
+/// The rotation from one orientation towards another, by a share of the angle, which may exceed 1.
+fn scaled_turn(from: Quat, to: Quat, share: f32) -> Quat {
+    (from * (1.0 - share) + to * share).normalize()
 }
 
 /// Direction of travel, a unit vector; `at_rest` where there is none.
