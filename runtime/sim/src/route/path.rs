@@ -36,6 +36,11 @@ pub struct PathProgress {
 }
 
 impl PathProgress {
+    /// Whether the agent walks to its last waypoint.
+    pub(crate) fn is_at_last(&self, agent: &AgentSpec) -> bool {
+        self.next as usize + 1 == agent.goals_m.len()
+    }
+
     /// Passes the waypoints that lie behind the agent's present position. Returns whether the next one is the last.
     pub fn pass(&mut self, agent: &AgentSpec, position_m: Vec2) -> bool {
         let last = agent.goals_m.len().saturating_sub(1);

@@ -123,7 +123,7 @@ impl Simulation {
 
 /// Distance of an agent to the end of its own waypoints, m; none before it has passed all others.
 fn path_end_m(agents: &Agents, population: &Population, index: usize) -> Option<f32> {
-    let goals_m = &population.spec(agents.ids[index]).goals_m;
-    let is_last = agents.progress[index].next as usize + 1 == goals_m.len();
-    goals_m.last().filter(|_| is_last).map(|goal_m| goal_m.distance(agents.positions_m[index]))
+    let spec = population.spec(agents.ids[index]);
+    let is_last = agents.progress[index].is_at_last(spec);
+    spec.goals_m.last().filter(|_| is_last).map(|goal_m| goal_m.distance(agents.positions_m[index]))
 }

@@ -37,10 +37,7 @@ impl Simulation {
         let agents = &self.agents;
         let (spec, progress) = (self.population.spec(agents.ids[index]), &agents.progress[index]);
         let walks = agents.preferred_mps[index] != Vec2::ZERO && agents.removals[index].is_none() && !progress.arrived;
-        walks
-            && spec.at_goal == AtGoal::Stay
-            && progress.next as usize + 1 == spec.goals_m.len()
-            && self.follows_path(index)
+        walks && spec.at_goal == AtGoal::Stay && progress.is_at_last(spec) && self.follows_path(index)
     }
 
     /// The agents that stand: those that stood behind others in the last step, and those that want to.

@@ -26,7 +26,7 @@ pub(crate) struct Scene {
     construction: Construction,
     turning_mps: Vec<Vec2>,
     pub(crate) params: Params,
-    dt_s: f32,
+    pub(crate) dt_s: f32,
     bodies: bool,
 }
 

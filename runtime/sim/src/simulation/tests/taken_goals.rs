@@ -1,6 +1,7 @@
 //! Claims about agents whose goals others have taken.
 
 use super::*;
+use crate::agents::Removal;
 use crate::maths::random::SplitMix64;
 
 /// Least distance between two agents that stand, m: their discs overlap by a tenth.
@@ -35,6 +36,20 @@ fn agents_with_one_goal_stand_around_it() {
         assert!(at_m.iter().all(|at_m| at_m.length() < radius_m), "{at_m:?}");
         let mut pairs = (0..count).flat_map(|a| (0..a).map(move |b| (a, b)));
         assert!(pairs.all(|(a, b)| at_m[a].distance(at_m[b]) > APART_M), "{at_m:?}");
+    }
+}
+
+#[test]
+fn agents_move_up_when_one_goes() {
+    let agent =
+        |x_m: f32| AgentSpec { position_m: Vec2::new(x_m, 0.0), goals_m: vec![Vec2::ZERO], ..AgentSpec::default() };
+    let mut simulation = started(&Scenario::of([-3.0, -6.0, -7.5].map(agent).to_vec()));
+    for _ in 0..2 {
+        (0..(12.0 / simulation.scenario.dt_s) as usize).for_each(|_| simulation.step(&mut |_| {}));
+        let left_m: Vec<f32> = simulation.agents.positions_m.iter().map(|at_m| at_m.length()).collect();
+        let nearest = (0..left_m.len()).min_by(|&a, &b| left_m[a].total_cmp(&left_m[b])).unwrap();
+        assert!(left_m[nearest] < 0.3, "{left_m:?}");
+        simulation.agents.removals[nearest] = Some(Removal::AtOnce);
     }
 }
 

@@ -59,6 +59,23 @@ fn a_body_steps_back_sooner_in_an_arch() {
     assert!(scene.plan().waits);
 }
 
+#[test]
+fn a_body_at_rest_does_not_step_aside() {
+    // An agent that wants to stand; another comes towards it from a distance, m.
+    let plan = |own_mps: Vec2, distance_m: f32| {
+        let mut scene = Scene::new(&[[0.0, 0.0], [-distance_m, 0.1]]);
+        // In longer steps a plan from rest is faster at once.
+        scene.dt_s = 1.0 / 60.0;
+        scene.velocities_mps = vec![own_mps, 0.3 * WALK];
+        scene.preferred_mps[0] = Vec2::ZERO;
+        scene.plan()
+    };
+    let [rests, overlaps, moves] = [(Vec2::ZERO, 0.75), (Vec2::ZERO, 0.45), (0.1 * WALK, 0.75)]
+        .map(|(own_mps, distance_m)| plan(own_mps, distance_m));
+    assert!(rests.velocity_mps != Vec2::ZERO && rests.waits, "{rests:?}");
+    assert!(!overlaps.waits && !moves.waits, "{overlaps:?} {moves:?}");
+}
+
 /// An agent before its goal; the next one walks close behind, and prefers a velocity.
 fn followed(preferred_mps: Vec2) -> Scene {
     let mut scene = Scene::new(&[[0.0, 0.0], [-0.7, 0.0]]);
