@@ -183,6 +183,7 @@ impl Agents {
         self.positions_m[index] = self.statures[index].root_of_crowd(body.root).position_m;
         self.velocities_mps[index] = Vec2::ZERO;
         self.planned_mps[index] = Vec2::ZERO;
+        self.progress[index].standing = None;
         self.extras[index] = body.extra(context);
         self.bodies[index] = body;
         self.stances[index] = output.stance;

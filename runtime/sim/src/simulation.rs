@@ -27,7 +27,8 @@ use crate::agents::Agents;
 use crate::behaviour::{CrowdBehaviour, EndlessTransitions};
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
-use crate::planning::plan::PLANTED_CONTACT;
+use crate::planning::mcn::orientation;
+use crate::planning::plan::{PLANTED_CONTACT, Plan};
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
@@ -228,6 +229,7 @@ impl Simulation {
         finished(Stage::Neighbours);
         self.plan();
         self.face_as_wanted();
+        self.face_taken_goals();
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
@@ -373,6 +375,11 @@ impl Simulation {
             ..*frame
         };
     }
+}
+
+/// Whether the body of an agent stands by its plan.
+fn body_stands(plan: &Plan) -> bool {
+    plan.waits || orientation::stands(plan.velocity_mps)
 }
 
 /// Whether a body is between two steps of its feet, given the contacts before and after a step of time: both feet are

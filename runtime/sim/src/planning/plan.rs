@@ -73,7 +73,8 @@ pub enum VelocitySet {
 pub struct Plan {
     /// v_i: planned velocity, world, m/s.
     pub velocity_mps: Vec2,
-    /// Whether the agent queues, and v_i leads slowly backward: its body stands instead. A disc without a body moves.
+    /// Whether the body stands although v_i is not 0: its agent queues and v_i leads slowly backward, or the body rests
+    /// where its agent wants to stand and v_i is slow. A disc without a body moves.
     pub waits: bool,
     /// f_d: facing to turn to, world, rad.
     pub facing_rad: f32,

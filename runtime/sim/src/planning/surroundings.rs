@@ -53,6 +53,12 @@ impl Surroundings {
         with_agents.chain(with_walls).fold(f32::INFINITY, f32::min)
     }
 
+    /// Overlap of the agent's disc with that of the neighbour that it overlaps most, m; negative where it overlaps none.
+    pub(crate) fn greatest_overlap_m(&self) -> f32 {
+        let overlaps_m = self.neighbours.as_slice().iter().map(|near| near.radius_m - near.distance_m);
+        overlaps_m.fold(f32::NEG_INFINITY, f32::max)
+    }
+
     /// The room that walls and neighbours leave to the body of an agent; walls count more.
     pub(crate) fn elbow_room(&self, world: &WorldView, agent: usize) -> ElbowRoom {
         let own_m = world.radii_m[agent];

@@ -45,6 +45,15 @@ pub(crate) fn coasted_m(coasting_mps: Vec2, direction: Vec2) -> f32 {
     COAST_S * coasting_mps.dot(direction).max(0.0)
 }
 
+/// Distance within which an agent at a speed has to brake in order to stand, m: the inverse of [`braking_speed_mps`].
+pub(crate) fn braking_distance_m(speed_mps: f32) -> f32 {
+    let last_stretch_mps = BRAKING_MPS2 * STOPPING_TIME_S;
+    if speed_mps < last_stretch_mps {
+        return speed_mps * STOPPING_TIME_S;
+    }
+    0.5 * (speed_mps * speed_mps / BRAKING_MPS2 + last_stretch_mps * STOPPING_TIME_S)
+}
+
 /// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.
 pub(crate) fn braking_speed_mps(distance_m: f32) -> f32 {
     let last_stretch_m = BRAKING_MPS2 * STOPPING_TIME_S * STOPPING_TIME_S;

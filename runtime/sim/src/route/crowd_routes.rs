@@ -10,6 +10,7 @@ use glam::{DVec2, Vec2};
 use crate::behaviour::{Area, GoalRef};
 use crate::route::field::{RouteField, RouteGoal, RoutePosition, RouteStep, shortest_route};
 use crate::route::mesh::{RouteError, RouteMesh};
+use crate::route::standing_position::StandingPosition;
 use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 
@@ -74,8 +75,8 @@ pub(crate) struct DoorAhead {
     pub(crate) memory: RouteMemory,
     /// Free path until the door, m; set by each query of the route.
     pub(crate) free_m: Option<f32>,
-    /// Number of agents that wait one behind the other up to the door, this one included; 0: it does not wait.
-    pub(crate) rank: u32,
+    /// Where the agent stands, or will stand, before the door; none before it brakes.
+    pub(crate) standing: Option<StandingPosition>,
 }
 
 /// A route to a waypoint of few agents.

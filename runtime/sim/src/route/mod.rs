@@ -5,9 +5,9 @@
 //!
 //! Read `polygons` (free space), [`mesh`] (its triangles) and [`field`] (shortest routes over it); then `crowd_routes`
 //! (the routes of all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path`
-//! (v_pref and facing along waypoints) with `rounded_waypoint` and `braking`, and `arrival` (when an agent has
-//! arrived); `reach` finds unreachable goals and closed passages before a simulation, with `area_reach` (areas) and
-//! `one_way_reach` (one-way zones).
+//! (v_pref and facing along waypoints) with `rounded_waypoint`, `braking` and `standing_position`, and `arrival` (when an
+//! agent has arrived); `reach` finds unreachable goals and closed passages before a simulation, with `area_reach` (areas)
+//! and `one_way_reach` (one-way zones).
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};
@@ -40,6 +40,7 @@ pub(crate) mod path;
 pub(crate) mod polygons;
 pub(crate) mod reach;
 pub(crate) mod rounded_waypoint;
+pub(crate) mod standing_position;
 pub(crate) mod steering;
 
 pub use braking::Braking;
@@ -48,3 +49,4 @@ pub use door_routes::ClosedDoors;
 pub use params::{KeepSide, RouteParams};
 pub use path::{PathProgress, PreferredMotion, RouteView, preferred_motion};
 pub use reach::{ClosedToAgents, closed_to_agents};
+pub use standing_position::StandingPosition;

@@ -11,6 +11,7 @@ use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, R
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
 use crate::route::rounded_waypoint::RoundedWaypoint;
+use crate::route::standing_position::StandingPosition;
 use crate::route::steering::{self, Heading};
 use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
@@ -25,17 +26,22 @@ const LEANS_M: f32 = 0.03;
 /// Distance from the mesh within which a goal lies on it, m: rounding.
 const ON_MESH_M: f32 = 1e-3;
 /// How far an agent has come along its waypoints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PathProgress {
     /// Index of the waypoint to which it walks.
     pub next: u32,
     /// Whether it has reached the last one and stays there.
     pub arrived: bool,
-    /// Its rank behind others that have taken its last goal; 0 where it does not stand behind others.
-    pub rank_behind: u32,
+    /// Where it stands, or will stand, at its last goal or behind others that have taken it; none before it brakes.
+    pub standing: Option<StandingPosition>,
 }
 
 impl PathProgress {
+    /// Whether the agent stands behind others that have taken its last goal.
+    pub(crate) fn stands_behind(&self) -> bool {
+        self.standing.is_some_and(StandingPosition::is_taken)
+    }
+
     /// Whether the agent walks to its last waypoint.
     pub(crate) fn is_at_last(&self, agent: &AgentSpec) -> bool {
         self.next as usize + 1 == agent.goals_m.len()

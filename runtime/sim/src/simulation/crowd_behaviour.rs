@@ -7,11 +7,10 @@ use glam::Vec2;
 
 use crate::agents::{Agents, Removal};
 use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits};
-use crate::planning::mcn::orientation;
 use crate::population::{Population, RadiusChange, SignalChange};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, body_stands};
 use crate::synthesis::library::context_of;
 
 /// Rounding of discs that are meant to touch a wall, m.
@@ -103,7 +102,7 @@ impl Simulation {
         for (index, state) in self.crowd.agents.iter().enumerate() {
             let Some(facing_rad) = state.aim.facing_rad() else { continue };
             let plan = &mut agents.plans[index];
-            if agents.preferred_mps[index] == Vec2::ZERO && orientation::stands(plan.velocity_mps) {
+            if agents.preferred_mps[index] == Vec2::ZERO && body_stands(plan) {
                 plan.facing_rad = facing_rad;
             }
         }

@@ -1,126 +1,169 @@
-//! Places behind agents that stand: an agent whose door is closed, or whose goal is taken, brakes and stands behind others.
-//! World, metres, m/s.
+//! Standing behind others: an agent whose door is closed, or whose goal is taken, brakes and stands behind others. World,
+//! metres, m/s.
 //!
-//! The agents at the front have rank 1; one that stands behind an agent of rank n has rank n + 1. Ranks are read as the
-//! last step left them, so the order of agents changes nothing.
+//! The agents at the front have rank 1; one that stands behind an agent of rank n has rank n + 1. An agent that brakes has
+//! a standing position before it stands there, so that those who follow it brake as evenly as it does. Of two agents that
+//! brake, the one nearer to the front comes first (of two equally near, that with the lower index). Positions are read as
+//! the last step left them, so threads change nothing.
+
+use std::num::NonZeroU32;
 
 use glam::Vec2;
 
-use crate::route::braking::{braking_speed_mps, coasted_m};
+use crate::route::braking::{braking_distance_m, braking_speed_mps, coasted_m};
+use crate::route::standing_position::StandingPosition;
 
-/// Distance between the discs of an agent that stands and one that stands behind it, m.
-const GAP_M: f32 = 0.25;
-/// Distance from its place within which an agent begins to stand, m, beside the distance that it coasts.
-const STOPS_M: f32 = 0.08;
-/// Distance from its place beyond which an agent that stands moves up, m: a step.
+/// Distance between the discs of an agent that stands and one that comes to stand behind it, m; it stops short of that.
+const GAP_M: f32 = 0.2;
+/// Distance from its standing position within which an agent begins to stand, m, beside the distance that it coasts
+/// (docs/tuning.md).
+const STOPS_M: f32 = 0.14;
+/// Distance from its standing position beyond which an agent that stands moves up, m: a step.
 const MOVES_UP_M: f32 = 0.5;
-/// Cosine of the angle to the direction of an agent within which another stands before it, 45°; 60° for an agent that
-/// stands, which does not go on when it is pushed a little aside.
-const BEFORE_COS: [f32; 2] = [0.71, 0.5];
-/// Distance within which an agent brakes behind another that stands, m.
-const BRAKES_M: f32 = 1.2;
+/// Cosine of the angle to the direction of an agent within which another stands before it, 35°; 53° for an agent that
+/// stands, which does not go on when it is pushed a little aside (docs/tuning.md).
+const BEFORE_COS: [f32; 2] = [0.82, 0.6];
 /// Greatest number of agents that stand one behind the other: crowds that face each other do not hold each other.
 const RANK_MAX: u32 = 100;
 
-/// An agent that stands.
+/// An agent that stands, or brakes in order to stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Standing {
+pub(super) struct Placed {
     pub(super) index: usize,
-    pub(super) position_m: Vec2,
     pub(super) radius_m: f32,
-    pub(super) rank: u32,
+    /// Where it stands, or will stand.
+    pub(super) standing: StandingPosition,
+    /// Its free path to the front, m.
+    pub(super) to_front_m: f32,
 }
 
-/// The agents that stand, by x.
-pub(super) struct StandingCrowd {
-    agents: Vec<Standing>,
+/// The agents that stand or brake, by the x of their standing positions.
+pub(super) struct PlacedCrowd {
+    agents: Vec<Placed>,
     radius_max_m: f32,
 }
 
-/// An agent that looks for its place.
+/// An agent that looks for its standing position.
 pub(super) struct Newcomer {
     index: usize,
     pub(super) position_m: Vec2,
     pub(super) radius_m: f32,
     /// Unit direction of v_pref.
     direction: Vec2,
-    /// Distance from its place within which it stands, m.
+    /// Its free path to the front, m.
+    to_front_m: f32,
+    /// Distance from its standing position within which it stands, m.
     slack_m: f32,
     /// Distance that it coasts, m.
     coast_m: f32,
+    /// Distance from its standing position within which it brakes, m.
+    pub(super) brakes_m: f32,
     /// Cosine of the angle within which others stand before it.
     before_cos: f32,
 }
 
-/// The place of an agent.
+/// How an agent goes on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    /// Free path to it, m.
-    left_m: f32,
-    /// Rank there; 0 where the agent walks on.
-    pub(super) rank: u32,
+pub(super) struct Approach {
+    /// Where it stands, or will stand; none where it does not brake yet.
+    pub(super) standing: Option<StandingPosition>,
+    /// v_pref, m/s.
+    pub(super) preferred_mps: Vec2,
 }
 
-impl StandingCrowd {
-    pub(super) fn new(mut agents: Vec<Standing>) -> Self {
-        agents.sort_by(|a, b| a.position_m.x.total_cmp(&b.position_m.x).then(a.index.cmp(&b.index)));
+impl PlacedCrowd {
+    pub(super) fn new(mut agents: Vec<Placed>) -> Self {
+        let x_m = |agent: &Placed| agent.standing.position_m.x;
+        agents.sort_by(|a, b| x_m(a).total_cmp(&x_m(b)).then(a.index.cmp(&b.index)));
         let radius_max_m = agents.iter().map(|agent| agent.radius_m).fold(0.0, f32::max);
         Self { agents, radius_max_m }
     }
 
-    /// The agents before which another may have to brake.
-    pub(super) fn near(&self, newcomer: &Newcomer) -> impl Iterator<Item = &Standing> {
-        let reach_m = newcomer.radius_m + self.radius_max_m + GAP_M + BRAKES_M + newcomer.coast_m;
+    /// The agents behind which another may have to stand.
+    pub(super) fn near(&self, newcomer: &Newcomer) -> impl Iterator<Item = &Placed> {
+        let reach_m = newcomer.radius_m + self.radius_max_m + GAP_M + newcomer.brakes_m;
         let x_m = newcomer.position_m.x;
-        let from = self.agents.partition_point(|other| other.position_m.x < x_m - reach_m);
-        self.agents[from..].iter().take_while(move |other| other.position_m.x <= x_m + reach_m)
+        let from = self.agents.partition_point(|other| other.standing.position_m.x < x_m - reach_m);
+        self.agents[from..].iter().take_while(move |other| other.standing.position_m.x <= x_m + reach_m)
     }
 }
 
 impl Newcomer {
-    /// An agent by its index, its position, v_pref and the velocity that it keeps while it coasts, and its radius;
-    /// `last_rank` is its rank in the last step.
+    /// An agent by its index, its position, v_pref and the velocity that it keeps while it coasts, its radius, and its free
+    /// path to the front; `stands` states whether it stood in the last step.
     pub(super) fn new(
         index: usize,
         [position_m, preferred_mps, coasting_mps]: [Vec2; 3],
         radius_m: f32,
-        last_rank: u32,
+        to_front_m: f32,
+        stands: bool,
     ) -> Self {
         let direction = preferred_mps.normalize_or_zero();
         let coast_m = coasted_m(coasting_mps, direction);
-        let stands = last_rank > 0;
-        let slack_m = if stands { MOVES_UP_M } else { (STOPS_M + coast_m).min(MOVES_UP_M) };
-        Self { index, position_m, radius_m, direction, slack_m, coast_m, before_cos: BEFORE_COS[usize::from(stands)] }
+        Self {
+            index,
+            position_m,
+            radius_m,
+            direction,
+            to_front_m,
+            slack_m: if stands { MOVES_UP_M } else { (STOPS_M + coast_m).min(MOVES_UP_M) },
+            coast_m,
+            // Of an agent that brakes already, by v_pref, the distance that it needs is just what is left.
+            brakes_m: STOPS_M + coast_m + braking_distance_m(preferred_mps.length()),
+            before_cos: BEFORE_COS[usize::from(stands)],
+        }
     }
 
-    /// Its place at the front, given the free path to there, m; none where it is not there yet.
-    pub(super) fn place_at_front(&self, to_front_m: f32) -> Option<Place> {
-        (to_front_m < self.slack_m).then_some(Place { left_m: to_front_m, rank: 1 })
+    /// It stands at the front; none where it is not there yet.
+    pub(super) fn at_front(&self) -> Option<Approach> {
+        (self.to_front_m < self.slack_m).then(|| self.stands(NonZeroU32::MIN))
     }
 
-    /// Its place behind the agents that stand before it; `to_front_m` is the free path to the front, m.
-    pub(super) fn place_behind<'a>(&self, to_front_m: f32, standing: impl Iterator<Item = &'a Standing>) -> Place {
-        let (mut left_m, mut rank) = (to_front_m, u32::MAX);
-        for other in standing.filter(|other| other.index != self.index && other.rank < RANK_MAX) {
-            let offset_m = other.position_m - self.position_m;
+    /// How it goes on, behind the agents that stand before it or will stand there, and no farther than `up_to_m`.
+    pub(super) fn approach<'a>(
+        &self,
+        preferred_mps: Vec2,
+        up_to_m: f32,
+        placed: impl Iterator<Item = &'a Placed>,
+    ) -> Approach {
+        let (mut remaining_m, mut rank): (f32, Option<NonZeroU32>) = (up_to_m, None);
+        for other in placed.filter(|other| self.comes_after(other)) {
+            let offset_m = other.standing.position_m - self.position_m;
             let distance_m = offset_m.length();
             if self.direction.dot(offset_m) <= self.before_cos * distance_m {
                 continue;
             }
             let free_m = distance_m - self.radius_m - other.radius_m - GAP_M;
-            left_m = left_m.min(free_m);
-            if free_m < self.slack_m {
-                rank = rank.min(other.rank + 1);
+            remaining_m = remaining_m.min(free_m);
+            if let Some(before) = other.standing.rank.filter(|_| free_m < self.slack_m) {
+                let behind = before.saturating_add(1);
+                rank = Some(rank.map_or(behind, |rank| rank.min(behind)));
             }
         }
-        Place { left_m, rank: if rank == u32::MAX { 0 } else { rank } }
+        match rank {
+            Some(rank) => self.stands(rank),
+            None => self.brakes(preferred_mps, remaining_m),
+        }
     }
 
-    /// v_pref before its place, m/s.
-    pub(super) fn preferred_mps(&self, place: Place, preferred_mps: Vec2) -> Vec2 {
-        if place.rank > 0 {
-            return Vec2::ZERO;
+    /// Whether another stands, or brakes and comes to the front before this agent.
+    fn comes_after(&self, other: &Placed) -> bool {
+        let nearer = other.to_front_m.total_cmp(&self.to_front_m).then(other.index.cmp(&self.index)).is_lt();
+        let stands_before = other.standing.rank.map_or(nearer, |rank| rank.get() < RANK_MAX);
+        other.index != self.index && stands_before
+    }
+
+    fn stands(&self, rank: NonZeroU32) -> Approach {
+        let standing = StandingPosition { position_m: self.position_m, rank: Some(rank) };
+        Approach { standing: Some(standing), preferred_mps: Vec2::ZERO }
+    }
+
+    fn brakes(&self, preferred_mps: Vec2, remaining_m: f32) -> Approach {
+        if remaining_m >= self.brakes_m {
+            return Approach { standing: None, preferred_mps };
         }
-        preferred_mps.clamp_length_max(braking_speed_mps((place.left_m - self.coast_m).max(0.0)))
+        let standing = StandingPosition { position_m: self.position_m + remaining_m * self.direction, rank: None };
+        let speed_mps = braking_speed_mps((remaining_m - self.coast_m).max(0.0));
+        Approach { standing: Some(standing), preferred_mps: preferred_mps.clamp_length_max(speed_mps) }
     }
 }

@@ -1,18 +1,26 @@
 //! Goals that others have taken: agents with one goal stand around it, one behind the other. World, metres, m/s.
 //!
 //! An agent that stands takes the goals on which it stands. One that stands at its goal, or behind others that have taken
-//! it, takes that goal, too.
+//! it, takes that goal, too; so does one that brakes in order to stand there.
+
+use std::num::NonZeroU32;
 
 use glam::Vec2;
 use rayon::prelude::*;
 
+use crate::agents::Agents;
+use crate::maths::angle::unit_vector;
+use crate::planning::mcn::gradual_turn::gradual_facing_at_rest;
 use crate::route::braking::{Braking, coasting_mps};
+use crate::route::standing_position::StandingPosition;
 use crate::scenario::AtGoal;
-use crate::simulation::places_behind::{Newcomer, Place, Standing, StandingCrowd};
-use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
+use crate::simulation::places_behind::{Approach, Newcomer, Placed, PlacedCrowd};
+use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation, body_stands};
 
 /// Distance within which a goal is taken, as a share of the sum of both radii.
 const TAKEN_SHARE: f32 = 0.5;
+/// Cosine of the angle between v_pref and the way to the goal within which the route leads straight to it: 18°.
+const STRAIGHT_COS: f32 = 0.95;
 
 impl Simulation {
     /// Slows down agents whose last goals others have taken, and lets them stand behind these.
@@ -21,14 +29,13 @@ impl Simulation {
             return;
         }
         let newcomers: Vec<usize> = (0..self.agents.count()).filter(|&index| self.walks_to_stay(index)).collect();
-        let standing = if newcomers.is_empty() { Vec::new() } else { self.standing() };
-        let crowd = StandingCrowd::new(standing);
-        let find_place = |&index: &usize| (index, self.place_at_goal(index, &crowd));
-        let placed: Vec<_> = newcomers.par_iter().with_min_len(ROUTES_PER_TASK_MIN).map(find_place).collect();
-        self.agents.progress.iter_mut().for_each(|progress| progress.rank_behind = 0);
-        for (index, (place, preferred_mps)) in placed {
-            self.agents.progress[index].rank_behind = place.rank;
-            self.agents.preferred_mps[index] = preferred_mps;
+        let crowd = PlacedCrowd::new(if newcomers.is_empty() { Vec::new() } else { self.placed() });
+        let approach = |&index: &usize| (index, self.approach_goal(index, &crowd));
+        let approaches: Vec<_> = newcomers.par_iter().with_min_len(ROUTES_PER_TASK_MIN).map(approach).collect();
+        self.agents.progress.iter_mut().for_each(|progress| progress.standing = None);
+        for (index, approach) in approaches {
+            self.agents.progress[index].standing = approach.standing;
+            self.agents.preferred_mps[index] = approach.preferred_mps;
         }
     }
 
@@ -40,40 +47,65 @@ impl Simulation {
         walks && spec.at_goal == AtGoal::Stay && progress.is_at_last(spec) && self.follows_path(index)
     }
 
-    /// The agents that stand: those that stood behind others in the last step, and those that want to.
-    fn standing(&self) -> Vec<Standing> {
+    /// The agents that stand, or brake in order to stand: those that did so in the last step, and those that want to stand.
+    fn placed(&self) -> Vec<Placed> {
         let agents = &self.agents;
-        let standing = |index: usize| {
+        let placed = |index: usize| {
+            let position_m = agents.positions_m[index];
             let wants_to_stand = agents.preferred_mps[index] == Vec2::ZERO;
-            let rank = agents.progress[index].rank_behind.max(u32::from(wants_to_stand));
-            let (position_m, radius_m) = (agents.positions_m[index], agents.radii_m[index]);
-            (rank > 0).then_some(Standing { index, position_m, radius_m, rank })
+            let here = wants_to_stand.then_some(StandingPosition { position_m, rank: Some(NonZeroU32::MIN) });
+            let walks_there = agents.removals[index].is_none() && self.follows_path(index);
+            let remembered = agents.progress[index].standing.filter(|_| walks_there);
+            let standing = remembered.map(|standing| standing.now(position_m)).or(here)?;
+            let to_front_m = self.last_goal_m(index).map_or(0.0, |goal_m| goal_m.distance(position_m));
+            Some(Placed { index, radius_m: agents.radii_m[index], standing, to_front_m })
         };
-        (0..agents.count()).filter_map(standing).collect()
+        (0..agents.count()).filter_map(placed).collect()
     }
 
-    /// The place of an agent that comes to its goal, and v_pref before it, m/s.
-    fn place_at_goal(&self, index: usize, crowd: &StandingCrowd) -> (Place, Vec2) {
+    /// How an agent that comes to its goal goes on.
+    fn approach_goal(&self, index: usize, crowd: &PlacedCrowd) -> Approach {
         let agents = &self.agents;
         let (position_m, preferred_mps) = (agents.positions_m[index], agents.preferred_mps[index]);
+        let Some(goal_m) = self.last_goal_m(index) else { return Approach { standing: None, preferred_mps } };
+        let way_m = goal_m - position_m;
+        let to_goal_m = way_m.length();
         let motion = [position_m, preferred_mps, coasting_mps(self.scenario.coupling, agents.velocities_mps[index])];
-        let newcomer = Newcomer::new(index, motion, agents.radii_m[index], agents.progress[index].rank_behind);
-        let goal_m = self.last_goal_m(index);
-        let has_taken = |other: &&Standing| goal_m.is_some_and(|goal_m| self.has_taken(goal_m, other, &newcomer));
-        let place = newcomer.place_behind(f32::INFINITY, crowd.near(&newcomer).filter(has_taken));
-        (place, newcomer.preferred_mps(place, preferred_mps))
+        let stood = agents.progress[index].stands_behind();
+        let newcomer = Newcomer::new(index, motion, agents.radii_m[index], to_goal_m, stood);
+        let is_straight = preferred_mps.dot(way_m) > STRAIGHT_COS * preferred_mps.length() * to_goal_m;
+        let brakes = is_straight && to_goal_m < newcomer.brakes_m && self.obstacles.is_free(position_m, goal_m);
+        let has_taken = |other: &&Placed| self.has_taken(goal_m, other, &newcomer);
+        let up_to_m = if brakes { to_goal_m } else { f32::INFINITY };
+        newcomer.approach(preferred_mps, up_to_m, crowd.near(&newcomer).filter(has_taken))
     }
 
-    /// Whether an agent that stands has taken the goal of a newcomer, and stands nearer to it with no wall between.
-    fn has_taken(&self, goal_m: Vec2, other: &Standing, newcomer: &Newcomer) -> bool {
-        let taken_m = TAKEN_SHARE * (newcomer.radius_m + other.radius_m);
+    /// Whether an agent that stands or brakes has taken the goal of a newcomer, nearer to it, with no wall between.
+    fn has_taken(&self, goal_m: Vec2, other: &Placed, newcomer: &Newcomer) -> bool {
+        let (other_m, taken_m) = (other.standing.position_m, TAKEN_SHARE * (newcomer.radius_m + other.radius_m));
         let progress = &self.agents.progress[other.index];
-        let stands_at_goal = progress.arrived || progress.rank_behind > 0;
-        let own_m = self.last_goal_m(other.index).filter(|_| stands_at_goal && self.follows_path(other.index));
+        let comes_to_goal = progress.arrived || progress.standing.is_some();
+        let own_m = self.last_goal_m(other.index).filter(|_| comes_to_goal && self.follows_path(other.index));
         let takes = |taken_at_m: Vec2| taken_at_m.distance(goal_m) < taken_m;
-        (takes(other.position_m) || own_m.is_some_and(takes))
-            && other.position_m.distance(goal_m) < newcomer.position_m.distance(goal_m)
-            && self.obstacles.is_free(newcomer.position_m, other.position_m)
+        (takes(other_m) || own_m.is_some_and(takes))
+            && other_m.distance(goal_m) < newcomer.position_m.distance(goal_m)
+            && self.obstacles.is_free(newcomer.position_m, other_m)
+    }
+
+    /// Turns agents that stand around their goals to these; the planner lets them keep their facing (§4.5).
+    pub(super) fn face_taken_goals(&mut self) {
+        for index in 0..self.agents.count() {
+            if !self.agents.progress[index].stands_behind() {
+                continue;
+            }
+            let Some(goal_m) = self.last_goal_m(index) else { continue };
+            let Agents { positions_m, facings_rad, plans, .. } = &mut self.agents;
+            if body_stands(&plans[index]) {
+                let forward = unit_vector(facings_rad[index]);
+                let facing = gradual_facing_at_rest(forward, (goal_m - positions_m[index]).normalize_or(forward));
+                plans[index].facing_rad = libm::atan2f(facing.y, facing.x);
+            }
+        }
     }
 
     fn last_goal_m(&self, index: usize) -> Option<Vec2> {

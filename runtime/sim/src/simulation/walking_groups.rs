@@ -132,7 +132,7 @@ impl Simulation {
     fn walker(&self, index: usize) -> Option<Walker> {
         let preferred_mps = self.agents.preferred_mps[index];
         let spec = self.population.spec(self.agents.ids[index]);
-        if self.agents.progress[index].rank_behind > 0 {
+        if self.agents.progress[index].stands_behind() {
             return None;
         }
         let state = self.crowd.agents.get(index);

@@ -12,7 +12,7 @@ use crate::planning::plan::Plan;
 use crate::synthesis::command::start_stop::{first_step_phase, stance_foot};
 use crate::synthesis::hybrid::{ExtraState, MotionState};
 use crate::synthesis::pose::{ContactState, FootLock};
-use crate::synthesis::{Body, Mode, SynthesisContext, TimeStep};
+use crate::synthesis::{Body, SynthesisContext, TimeStep};
 
 impl Body {
     /// Follows a plan over one step: command, motion and root. Walls may then move the root
@@ -33,8 +33,8 @@ impl Body {
         let reachable = command.follow(&plan, root.facing_rad, deformed, &traits, context, step);
         let feet_planted = contact.locks.iter().all(FootLock::planted);
         let rests = command.step_state.comes_to_rest(&reachable, &command.filter, &context.domain, &traits);
-        if motion.mode != Mode::SemiProcedural && command.step_state.follow(&reachable, rests, feet_planted, step.dt_s)
-        {
+        let may_blend = || motion.may_blend(context);
+        if command.step_state.follow(&reachable, rests, feet_planted, may_blend, step.dt_s) {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain, &traits);
             let stance = stance_foot(phase);
             if let Some(action) = context.starts.fitting(command.filter.command, 1 - stance) {
@@ -43,6 +43,9 @@ impl Body {
                 motion.jump(extra, context, step, |motion| motion.phase = phase);
                 weight_shift.begin(stance);
             }
+        }
+        if command.step_state.stands {
+            motion.stand(extra, context, step);
         }
         let target = motion.target(command, &reachable, context);
         motion.approach(target, &reachable, command, context, step.dt_s);

@@ -6,8 +6,8 @@
 //!
 //! 1. `displacement_accumulator`: planned displacement that is too slow to walk is accumulated and becomes one step;
 //! 2. `blend_query`, `command_filter`: the plan requests (v_f, ω_t, ω_s); filtered, they are the command;
-//! 3. `step_state`, `start_stop`: the body stands or steps; where the database has a recorded start that fits (`starts`),
-//!    a body that begins to step plays it (`played_transition`);
+//! 3. `step_state`, `start_stop`: the body stands, and then blends, or steps; where the database has a recorded start that
+//!    fits (`starts`), a body that begins to step plays it (`played_transition`);
 //! 4. `motion_state`, `weight_transition`: the active motion moves toward the part of the command that it can reach;
 //! 5. the root moves along its arc, and the phase advances (`phase_catch_up`);
 //! 6. `pose_smoothing`, `inertialization`: the drawn motion follows, and the pose offset of the last switch decays

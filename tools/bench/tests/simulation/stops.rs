@@ -133,6 +133,33 @@ fn a_stop_ends_on_both_feet_with_real_clips() {
     real_contexts().iter().for_each(|(name, context)| check_stops(name, context));
 }
 
+/// Longest duration for which a foot is still in the air, or not yet off the ground, after the root of a body has come to
+/// rest, s, over all phases of a stride.
+fn closing_s(modes: Modes, gait: [f32; 3]) -> f32 {
+    let context = SynthesisContext::new(Arc::new(bundled()), HmsParams { modes, ..HmsParams::default() });
+    let closing_s = |stop_s: f32| {
+        let command = |time_s: f32| parameters(if time_s < stop_s { gait } else { [0.0; 3] });
+        let plan = |time_s: f32, root: &Root| plan_requesting(command(time_s), root, &context.params);
+        let steps = walk(&context, stop_s + 4.0, plan);
+        let rests = |pair: &[BodyStep]| pair[0].root.position_m.distance(pair[1].root.position_m) < 0.05 * DT_S;
+        let resting = steps.windows(2).rposition(|pair| !rests(pair)).unwrap_or(0);
+        let lifted = steps.iter().rposition(|step| step.contacts != [1.0; 2]).unwrap_or(0);
+        DT_S * lifted.saturating_sub(resting) as f32
+    };
+    change_times_s().map(closing_s).fold(0.0, f32::max)
+}
+
+#[test]
+fn a_body_that_comes_to_rest_closes_its_feet_at_once() {
+    for modes in [Modes::Blending, Modes::SemiProcedural] {
+        for gait in [[1.2, 0.0, 0.0], [0.6, 0.0, 0.0]] {
+            // A stance of 0.4 s, then a step of 0.38 s with each foot.
+            let closing_s = closing_s(modes, gait);
+            assert!(closing_s < 1.25, "{modes:?} from {gait:?}: feet close {closing_s} s after the root rests");
+        }
+    }
+}
+
 /// A standing body starts in every direction.
 fn check_starts(name: &str, context: &SynthesisContext) {
     for direction in 0..8 {

@@ -46,6 +46,11 @@ pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_
     Vec2::new(cos, sin).rotate(forward)
 }
 
+/// The facing to plan for a body that stands on its feet and faces `forward`, towards `facing`. Unit vectors.
+pub(crate) fn gradual_facing_at_rest(forward: Vec2, facing: Vec2) -> Vec2 {
+    gradual_facing(forward, facing, 0.0, true, 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use motiondb::velocity_sets::velocity_hull::Construction;
 
 use crate::planning::gap::gap_m;
 use crate::planning::mcn::adaptation::adapt;
-use crate::planning::mcn::avoidance::{avoid, waits};
+use crate::planning::mcn::avoidance::{avoid, stays, waits};
 use crate::planning::mcn::gradual_turn::gradual_facing;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::orientation::{self, Orientation, OrientationInput};
@@ -75,7 +75,7 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
     };
     Plan {
         velocity_mps,
-        waits: waits(world, agent, memory, velocity_mps),
+        waits: waits(world, agent, memory, velocity_mps) || stays(world, agent, &memory.surroundings, velocity_mps),
         facing_rad: libm::atan2f(facing.y, facing.x),
         time_to_collision_s: memory.surroundings.time_to_collision_s(world, agent),
         density,

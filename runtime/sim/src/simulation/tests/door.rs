@@ -161,7 +161,7 @@ fn agents_wait_calmly_and_all_arrive_after_the_door_opens() {
         let after: Vec<Vec2> = simulation.frames().iter().map(|frame| frame.root.position_m).collect();
         if (450..595).contains(&simulation.steps) {
             walked_m += before.iter().zip(&after).map(|(from_m, to_m)| from_m.distance(*to_m)).sum::<f32>();
-            let near = after.iter().filter(|at_m| at_m.distance(Vec2::ZERO) < 3.5).count();
+            let near = after.iter().filter(|at_m| at_m.distance(Vec2::ZERO) < 4.0).count();
             assert!(after.iter().all(|at_m| at_m.x < TOUCH_M - 0.2 - HALF_WALL_M) && near > 10, "{after:?}");
         }
         before = after;
@@ -169,6 +169,28 @@ fn agents_wait_calmly_and_all_arrive_after_the_door_opens() {
     // 12 agents in 4.8 s.
     assert!(walked_m < 1.0, "{walked_m} m");
     assert_eq!(arrived(&simulation), 12);
+}
+
+#[test]
+fn a_runner_brakes_evenly_before_a_closed_door() {
+    let runner = AgentSpec {
+        position_m: Vec2::new(-7.5, 0.0),
+        goals_m: vec![Vec2::new(6.0, 0.0)],
+        preferred_speed_mps: 2.5,
+        ..AgentSpec::default()
+    };
+    let scenario = rooms(&[([-0.6, 0.6], opens_at(1e4))], vec![runner]);
+    let (mut before_mps, mut greatest_drop_mps) = (0.0_f32, 0.0_f32);
+    let simulation = walk(&scenario, 12.0, &mut |simulation| {
+        let preferred_mps = simulation.agents.preferred_mps[0].length();
+        if preferred_mps > 0.0 {
+            greatest_drop_mps = greatest_drop_mps.max(before_mps - preferred_mps);
+        }
+        before_mps = preferred_mps;
+    });
+    let at_m = simulation.agents.positions_m[0];
+    assert!(before_mps == 0.0 && (-1.3..-0.6).contains(&at_m.x), "{at_m}, {before_mps} m/s");
+    assert!(greatest_drop_mps < 0.2, "{greatest_drop_mps} m/s in a step");
 }
 
 #[test]

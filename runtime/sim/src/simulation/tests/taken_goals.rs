@@ -40,6 +40,52 @@ fn agents_with_one_goal_stand_around_it() {
 }
 
 #[test]
+fn agents_brake_before_they_stand_behind_others() {
+    for seed in 5..8 {
+        let (mut before_mps, mut halts, mut restarts) = (vec![Vec2::ZERO; 25], 0, 0);
+        run(&gathering(25, seed), |simulation, _| {
+            let preferred_mps = &simulation.agents.preferred_mps;
+            let halted = |(before_mps, now_mps): (&Vec2, &Vec2)| *now_mps == Vec2::ZERO && before_mps.length() > 0.8;
+            let set_out = |(before_mps, now_mps): (&Vec2, &Vec2)| halted((now_mps, before_mps));
+            halts += before_mps.iter().zip(preferred_mps).filter(|pair| halted(*pair)).count();
+            restarts += before_mps.iter().zip(preferred_mps).filter(|pair| set_out(*pair)).count();
+            before_mps.clone_from(preferred_mps);
+        });
+        // All start once.
+        assert!(halts < 5 && restarts < 25 + 5, "seed {seed}: {halts} halt from a walk, {restarts} start to walk");
+    }
+}
+
+/// v_pref of agents with one goal after some steps, m/s.
+fn preferred_mps(positions_m: &[Vec2]) -> Vec<Vec2> {
+    let agent = |&position_m: &Vec2| AgentSpec { position_m, goals_m: vec![Vec2::ZERO], ..AgentSpec::default() };
+    let mut simulation = started(&Scenario::of(positions_m.iter().map(agent).collect()));
+    (0..4).for_each(|_| simulation.step(&mut |_| {}));
+    simulation.agents.preferred_mps
+}
+
+#[test]
+fn the_nearer_of_two_agents_goes_on_to_the_goal() {
+    let [near_m, far_m] = [Vec2::new(-1.0, 0.0), 1.1 * Vec2::from_angle(std::f32::consts::FRAC_PI_3)];
+    let alone_mps = preferred_mps(&[near_m])[0];
+    let (first, last) = (preferred_mps(&[near_m, far_m]), preferred_mps(&[far_m, near_m]));
+    for (near_mps, far_mps) in [(first[0], first[1]), (last[1], last[0])] {
+        assert!(near_mps.distance(alone_mps) < 0.05, "{near_mps}, alone {alone_mps}");
+        assert!(far_mps.length() < 0.6 * near_mps.length(), "{far_mps}");
+    }
+}
+
+#[test]
+fn agents_that_stand_around_a_goal_face_it() {
+    let simulation = run(&gathering(12, 9), |_, _| {});
+    let agents = &simulation.agents;
+    for (index, progress) in agents.progress.iter().enumerate().filter(|(_, progress)| progress.stands_behind()) {
+        let off_rad = wrap_rad((-agents.positions_m[index]).to_angle() - agents.facings_rad[index]);
+        assert!(off_rad.abs() < 0.5, "agent {index} at {}: {off_rad} rad, {progress:?}", agents.positions_m[index]);
+    }
+}
+
+#[test]
 fn agents_move_up_when_one_goes() {
     let agent =
         |x_m: f32| AgentSpec { position_m: Vec2::new(x_m, 0.0), goals_m: vec![Vec2::ZERO], ..AgentSpec::default() };
@@ -48,7 +94,7 @@ fn agents_move_up_when_one_goes() {
         (0..(12.0 / simulation.scenario.dt_s) as usize).for_each(|_| simulation.step(&mut |_| {}));
         let left_m: Vec<f32> = simulation.agents.positions_m.iter().map(|at_m| at_m.length()).collect();
         let nearest = (0..left_m.len()).min_by(|&a, &b| left_m[a].total_cmp(&left_m[b])).unwrap();
-        assert!(left_m[nearest] < 0.3, "{left_m:?}");
+        assert!(left_m[nearest] < 0.5, "{left_m:?}");
         simulation.agents.removals[nearest] = Some(Removal::AtOnce);
     }
 }

@@ -45,16 +45,13 @@ impl CommandState {
         let Self { filter, step_state, .. } = self;
         let SynthesisContext { domain, params, .. } = context;
         match deformed {
-            None => {
-                filter.follow(requested_of_blending(plan, facing_rad, domain, params), step_state.stands, step);
-                step_state.reachable(filter, domain, traits)
-            }
+            None => filter.follow(requested_of_blending(plan, facing_rad, domain, params), step_state.stands, step),
             Some((base_walk, current)) => {
                 let turning_rad = step.dt_s * current.turn_rate_rad_s;
                 filter.turn(turning_rad);
                 filter.follow(requested_of_base_walk(plan, facing_rad, turning_rad, base_walk, params), false, step);
-                domain.reachable_with(filter.command, traits.cadence)
             }
         }
+        step_state.reachable(filter, domain, traits)
     }
 }

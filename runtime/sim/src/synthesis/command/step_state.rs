@@ -37,7 +37,7 @@ const STATE_DURATION_S: f32 = 0.4;
 const PASSING_TIME_S: f32 = 0.2;
 /// Time ahead at which a command that comes to rest is evaluated, s: the duration of the last step.
 const LAST_STEP_S: f32 = 0.35;
-/// Greatest time for which a stopping body waits until both feet are planted, s: those of a run never are.
+/// Greatest time for which a stopping body that could blend waits until both feet are planted, s: those of a run never are.
 const STOPPING_MAX_S: f32 = 1.2;
 /// Share of the current velocity in the last step of a body whose command rests, unless the least steps are faster.
 const LAST_STEP_SPEED_SHARE: f32 = 0.25;
@@ -60,15 +60,24 @@ impl StepState {
     pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, stopping_s: 0.0 };
 
     /// Follows what the examples reach of the command, with hysteresis. `comes_to_rest` states whether the command will
-    /// rest by the end of a step, `feet_planted` whether both feet are. Returns whether the body starts to step.
-    pub(crate) fn follow(&mut self, reachable: &Reachable, comes_to_rest: bool, feet_planted: bool, dt_s: f32) -> bool {
+    /// rest by the end of a step, `feet_planted` whether both feet are, and `may_blend` whether the body could blend now.
+    /// Returns whether the body starts to step.
+    pub(crate) fn follow(
+        &mut self,
+        reachable: &Reachable,
+        comes_to_rest: bool,
+        feet_planted: bool,
+        may_blend: impl FnOnce() -> bool,
+        dt_s: f32,
+    ) -> bool {
         let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
         let may_change = self.duration_s >= STATE_DURATION_S;
         let rests = idle_share > STOP_IDLE_SHARE || comes_to_rest;
         let stop = !self.stands && (may_change && rests || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && may_change && idle_share < START_IDLE_SHARE;
         self.stopping_s = if stop { self.stopping_s + dt_s } else { 0.0 };
-        if start || self.stopping_s > STOPPING_MAX_S || stop && feet_planted {
+        let on_feet = feet_planted || self.stopping_s > STOPPING_MAX_S;
+        if start || stop && on_feet && may_blend() {
             *self = Self { stands: !self.stands, duration_s: 0.0, stopping_s: 0.0 };
         }
         self.duration_s += dt_s;
@@ -162,11 +171,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_body_stands_only_where_it_can_blend() {
+        let rests = Reachable { idle_share: 1.0, ..Reachable::default() };
+        for (feet_planted, may_blend) in [(true, false), (false, false), (true, true), (false, true)] {
+            let mut step_state = StepState { stands: false, ..StepState::STANDING };
+            let mut stands_after = |steps: usize| {
+                for _ in 0..steps {
+                    step_state.follow(&rests, true, feet_planted, || may_blend, 0.1);
+                }
+                step_state.stands
+            };
+            assert_eq!([stands_after(1), stands_after(20)], [feet_planted && may_blend, may_blend]);
+        }
+    }
+
+    #[test]
     fn bodies_without_slow_steps_start_too() {
         // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
         let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
         let reachable = Reachable { parameters, idle_share: 0.92, playback_rate: 1.0, ..Reachable::default() };
         let mut step_state = StepState::STANDING;
-        assert!(step_state.follow(&reachable, false, true, 1.0 / 30.0));
+        assert!(step_state.follow(&reachable, false, true, || true, 1.0 / 30.0));
     }
 }

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Hysteresis keeps a body from changing to and fro: the return to blending needs both with a margin, and each
-//! selection has a least duration. A body that stands, or is to stand, blends, since m_sp only walks.
+//! selection has a least duration. A body that stands, or is to stand, blends, since m_sp only walks; it does
+//! so at once when both feet are planted (`switching`).
 
 use crate::planning::plan::Plan;
 use crate::synthesis::{Mode, Modes};

@@ -1,5 +1,5 @@
 //! Switching (`FbCrowd` §3.4.1, App. 10): when one synthesis replaces the other, at which phase, and what it leaves to
-//! inertialization; and where a recorded transition begins and ends.
+//! inertialization; and where a recorded transition begins and ends. A body that stands leaves m_sp at once.
 //!
 //! Root frame (x forward, y left, z up), metres; parameters in m/s and rad/s.
 
@@ -9,7 +9,7 @@ use motiondb::motion::{Parameters, wrapped};
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::ExampleMix;
 use crate::synthesis::hybrid::extra_state::ExtraState;
-use crate::synthesis::hybrid::mode_selection::ModeThresholds;
+use crate::synthesis::hybrid::mode_selection::{ModeSelection, ModeThresholds};
 use crate::synthesis::hybrid::motion_state::{Moment, MotionState};
 use crate::synthesis::hybrid::played_transition::PlayedTransition;
 use crate::synthesis::library::HybridData;
@@ -78,6 +78,20 @@ impl MotionState {
             Mode::SemiProcedural => context.domain.reachable_with(current, self.traits.cadence).parameters,
         });
         current.to_vec3().distance(reached.to_vec3()) <= SWITCH_TOLERANCE
+    }
+
+    /// Whether the body blends, or could at its current parameters.
+    pub(crate) fn may_blend(&self, context: &SynthesisContext) -> bool {
+        let reached = || context.domain.reachable_with(self.parameters, self.traits.cadence).parameters;
+        self.mode != Mode::SemiProcedural || self.parameters.to_vec3().distance(reached().to_vec3()) <= SWITCH_TOLERANCE
+    }
+
+    /// Lets a body that stands blend at once, without a pair of T: m_sp would take one more step before it passes one.
+    pub(crate) fn stand(&mut self, extra: &mut ExtraState, context: &SynthesisContext, step: &TimeStep) {
+        if self.mode == Mode::SemiProcedural {
+            self.selection = ModeSelection::BLENDING;
+            self.jump(extra, context, step, |motion| motion.take_over(Mode::Blending, context));
+        }
     }
 
     /// Makes a mode active at the current parameters.

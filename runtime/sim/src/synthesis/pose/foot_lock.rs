@@ -35,6 +35,9 @@ const CLEARANCE_SOFTNESS_M: f32 = 0.002;
 const SHIFT_MAX_M: f32 = 0.45;
 /// Distance of the toes from the axis of a twist, m.
 const TOES_M: f32 = 0.25;
+/// Twist up to which a foot stands well, inward or outward, rad: idles turn their feet by 7°, and each of these turns would
+/// lift one (docs/tuning.md).
+const TWIST_TOLERANCE_RAD: f32 = 0.17;
 /// Greatest twist ψ, rad: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 
@@ -161,9 +164,11 @@ impl FootLock {
         self.planted.then_some(self.shift_m[0])
     }
 
-    /// Distance of a planted foot from a point relative to where the pose has it, m; a twist adds the way of the toes.
+    /// Distance of a planted foot from a point relative to where the pose has it, m; a twist beyond
+    /// [`TWIST_TOLERANCE_RAD`] adds the way of the toes.
     pub(crate) fn planted_off_m(&self, target_m: Vec2) -> Option<f32> {
-        let off_m = self.shift_m[0].distance(target_m) + TOES_M * self.twist_rad[0].abs();
+        let off_m =
+            self.shift_m[0].distance(target_m) + TOES_M * (self.twist_rad[0].abs() - TWIST_TOLERANCE_RAD).max(0.0);
         self.planted.then_some(off_m)
     }
 

@@ -10,7 +10,8 @@
 //! - Foot positions move apart in side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - The amplitude of hips, trunk and arms grows with the stride.
 //! - In shorter strides of the toes feet roll and lift less, and stand under the hips as in a body that stands. The hips
-//!   rise and fall by the square of that stride, as on a pendulum.
+//!   rise and fall by the square of that stride, as on a pendulum. In wide side-steps feet roll more: otherwise the hips
+//!   would drop between legs that spread.
 //!
 //! [`crate::synthesis::semi_procedural::base_walk`] describes how the feet are carried.
 //!
@@ -44,6 +45,9 @@ const TOE_OUT_SHARE: f32 = 0.7;
 const KNEE_YAW_SHARE: f32 = 0.7;
 /// Share of the angle between travel and facing by which hips twist towards the travel.
 const HIP_TWIST_SHARE: f32 = 0.3;
+/// Share by which a side-step at the speed of m_sp counts as a longer stride of the toes; slower ones count as longer by
+/// less (docs/tuning.md).
+const WIDE_STRIDE: f32 = 0.7;
 /// Stride of the toes from which on feet roll in full, divided by that of m_sp.
 const FULL_STRIDE: f32 = 0.85;
 /// Least stride by which feet roll, divided by that from which on they roll in full.
@@ -112,9 +116,12 @@ impl<'a> Deformation<'a> {
         let strafe_apart_m = base.carried_apart_s * soft_size(parameters.strafe_mps) / tempo.cadence;
         let turn_apart_m = FOOT_LENGTH_M * unit_vector((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
         let lean_rad = lean_rad(&parameters);
+        let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = parameters;
+        let base_mps = base.parameters.speed_mps;
+        let wide_mps = strafe_mps * (1.0 + WIDE_STRIDE * strafe_mps.abs() / base_mps);
+        let toe_mps = Vec2::new(speed_mps, wide_mps).length() + FOOT_LENGTH_M * soft_size(turn_rate_rad_s);
         // Strides of the hips and of the toes, divided by that of m_sp.
-        let [hip_stride, toe_stride] = [travel_mps, travel_mps + FOOT_LENGTH_M * soft_size(parameters.turn_rate_rad_s)]
-            .map(|mps| mps / (base.parameters.speed_mps * tempo.cadence));
+        let [hip_stride, toe_stride] = [travel_mps, toe_mps].map(|mps| mps / (base_mps * tempo.cadence));
         let level = Self {
             tempo,
             parameters,

@@ -17,9 +17,6 @@
 //! stands instead, unless its disc overlaps another by more than D. Arches before doors dissolve only because bodies step
 //! back. So this speed falls with the greatest conflict p of the agent with a neighbour near by (`pressing`).
 //!
-//! A body that rests where its agent wants to stand does not step aside, either, for a slow plan: agents that come near
-//! would move it by a few centimetres each.
-//!
 //! World axes, m/s.
 
 use glam::Vec2;
@@ -44,13 +41,6 @@ const OVERLAP_MAX_M: f32 = 0.05;
 /// Cosine of the angle to the direction against v_pref within which a velocity leads backward: 78°. The half-plane brings
 /// many velocities to 90°, where rounding would decide.
 const BACK_COS: f32 = 0.2;
-
-/// Speed below which a body that rests, where its agent wants to stand, does not step aside, m/s (docs/tuning.md).
-const ASIDE_MIN_MPS: f32 = 0.2;
-/// Overlap of its disc with another from which such a body steps aside, m.
-const RESTING_OVERLAP_MAX_M: f32 = 0.01;
-/// Speed below which a body rests, m/s.
-const RESTING_MPS: f32 = 0.03;
 
 /// q: share by which an agent queues behind its neighbours, given their urgencies, 0 to 1.
 pub(crate) fn queueing_share(world: &WorldView, agent: usize, neighbours: &[Neighbour], urgencies: &Lanes) -> f32 {
@@ -77,16 +67,10 @@ pub(crate) fn back_min_mps(queueing_share: f32, greatest_conflict: f32) -> f32 {
     BACK_MIN_MPS * queueing_share * (1.0 - CONFLICT_SHARE * greatest_conflict)
 }
 
-/// Whether the body of an agent stands, rather than go backward or aside at a planned velocity.
+/// Whether the body of an agent waits in a queue, rather than go backward at a planned velocity.
 pub(crate) fn waits(world: &WorldView, agent: usize, memory: &McnMemory, velocity_mps: Vec2) -> bool {
     let (speed_mps, back_mps) = (velocity_mps.length(), -world.preferred_direction(agent).dot(velocity_mps));
-    let rests = world.preferred_mps[agent] == Vec2::ZERO && world.velocities_mps[agent].length() < RESTING_MPS;
-    let goes_back = back_mps > BACK_COS * speed_mps;
-    let (slower_than_mps, overlap_max_m) = match (rests, goes_back) {
-        (true, _) => (ASIDE_MIN_MPS, RESTING_OVERLAP_MAX_M),
-        (false, true) => (memory.back_min_mps, OVERLAP_MAX_M),
-        (false, false) => return false,
-    };
-    let is_apart = |neighbour: &Neighbour| neighbour.radius_m - neighbour.distance_m <= overlap_max_m;
-    speed_mps < slower_than_mps && memory.surroundings.neighbours.as_slice().iter().all(is_apart)
+    back_mps > BACK_COS * speed_mps
+        && speed_mps < memory.back_min_mps
+        && memory.surroundings.greatest_overlap_m() <= OVERLAP_MAX_M
 }
