@@ -19,7 +19,7 @@ use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation, body_stands};
 
 /// Distance within which a goal is taken, as a share of the sum of both radii.
 const TAKEN_SHARE: f32 = 0.5;
-/// Cosine of the angle between v_pref and the way to the goal within which the route leads straight to it: 18°.
+/// Cosine of the angle between v_pref and the direction of the goal within which the route leads straight to it: 18°.
 const STRAIGHT_COS: f32 = 0.95;
 
 impl Simulation {
@@ -68,12 +68,12 @@ impl Simulation {
         let agents = &self.agents;
         let (position_m, preferred_mps) = (agents.positions_m[index], agents.preferred_mps[index]);
         let Some(goal_m) = self.last_goal_m(index) else { return Approach { standing: None, preferred_mps } };
-        let way_m = goal_m - position_m;
-        let to_goal_m = way_m.length();
+        let offset_m = goal_m - position_m;
+        let to_goal_m = offset_m.length();
         let motion = [position_m, preferred_mps, coasting_mps(self.scenario.coupling, agents.velocities_mps[index])];
         let stood = agents.progress[index].stands_behind();
         let newcomer = Newcomer::new(index, motion, agents.radii_m[index], to_goal_m, stood);
-        let is_straight = preferred_mps.dot(way_m) > STRAIGHT_COS * preferred_mps.length() * to_goal_m;
+        let is_straight = preferred_mps.dot(offset_m) > STRAIGHT_COS * preferred_mps.length() * to_goal_m;
         let brakes = is_straight && to_goal_m < newcomer.brakes_m && self.obstacles.is_free(position_m, goal_m);
         let has_taken = |other: &&Placed| self.has_taken(goal_m, other, &newcomer);
         let up_to_m = if brakes { to_goal_m } else { f32::INFINITY };

@@ -133,9 +133,8 @@ fn a_stop_ends_on_both_feet_with_real_clips() {
     real_contexts().iter().for_each(|(name, context)| check_stops(name, context));
 }
 
-/// Longest duration for which a foot is still in the air, or not yet off the ground, after the root of a body has come to
-/// rest, s, over all phases of a stride.
-fn closing_s(modes: Modes, gait: [f32; 3]) -> f32 {
+/// Longest time from when the root of a body rests until its last foot has landed, s, over all phases of a stride.
+fn longest_closing_s(modes: Modes, gait: [f32; 3]) -> f32 {
     let context = SynthesisContext::new(Arc::new(bundled()), HmsParams { modes, ..HmsParams::default() });
     let closing_s = |stop_s: f32| {
         let command = |time_s: f32| parameters(if time_s < stop_s { gait } else { [0.0; 3] });
@@ -154,7 +153,7 @@ fn a_body_that_comes_to_rest_closes_its_feet_at_once() {
     for modes in [Modes::Blending, Modes::SemiProcedural] {
         for gait in [[1.2, 0.0, 0.0], [0.6, 0.0, 0.0]] {
             // A stance of 0.4 s, then a step of 0.38 s with each foot.
-            let closing_s = closing_s(modes, gait);
+            let closing_s = longest_closing_s(modes, gait);
             assert!(closing_s < 1.25, "{modes:?} from {gait:?}: feet close {closing_s} s after the root rests");
         }
     }

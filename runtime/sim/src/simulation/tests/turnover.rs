@@ -65,6 +65,7 @@ fn one_and_two_threads_give_equal_bits_with_sources() {
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let both = [pool(1), pool(2)];
     let mut simulations = [0, 1].map(|_| started(&busy()));
+    // Long enough for more than five agents to be removed.
     for step in 0..500 {
         for (simulation, pool) in simulations.iter_mut().zip(&both) {
             pool.install(|| simulation.step(&mut |_| {}));

@@ -4,7 +4,8 @@
 //! and whether its body waits.
 //!
 //! Read `agents_and_walls`, Eq. 12; then what the paper lacks: `slowing` (agents see each other brake), `pressing`
-//! (agents in contact dissolve an arch), `queueing` (agents that wait hold their place) and `resting` (bodies at rest stay).
+//! (agents in contact dissolve an arch), `queueing` (agents that wait hold their place) and `resting` (bodies at rest
+//! stay).
 
 mod agents_and_walls;
 mod pressing;
