@@ -27,8 +27,7 @@ use crate::agents::Agents;
 use crate::behaviour::{CrowdBehaviour, EndlessTransitions};
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
-use crate::planning::mcn::orientation;
-use crate::planning::plan::{PLANTED_CONTACT, Plan};
+use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::{OwnConstraints, OwnWalls, WorldView};
@@ -54,10 +53,11 @@ use crate::world::one_way::OneWayZone;
 mod crowd_behaviour;
 mod door_waiting;
 mod doors;
+mod facing_at_rest;
 mod moving_doors;
 mod path_walker;
-mod places_behind;
 mod source_state;
+mod standing_crowd;
 mod taken_goals;
 mod turnover;
 mod walking_groups;
@@ -228,8 +228,7 @@ impl Simulation {
         self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
-        self.face_as_wanted();
-        self.face_taken_goals();
+        self.turn_at_rest();
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
@@ -375,11 +374,6 @@ impl Simulation {
             ..*frame
         };
     }
-}
-
-/// Whether the body of an agent stands by its plan.
-fn body_stands(plan: &Plan) -> bool {
-    plan.waits || orientation::stands(plan.velocity_mps)
 }
 
 /// Whether a body is between two steps of its feet, given the contacts before and after a step of time: both feet are

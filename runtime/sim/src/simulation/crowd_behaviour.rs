@@ -10,7 +10,7 @@ use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits
 use crate::population::{Population, RadiusChange, SignalChange};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
-use crate::simulation::{Simulation, body_stands};
+use crate::simulation::Simulation;
 use crate::synthesis::library::context_of;
 
 /// Rounding of discs that are meant to touch a wall, m.
@@ -94,18 +94,6 @@ impl Simulation {
     pub(super) fn follows_path(&self, index: usize) -> bool {
         let states = &self.scenario.behaviour.states;
         self.crowd.agents.get(index).is_none_or(|agent| states[agent.state as usize].movement == Movement::OwnPath)
-    }
-
-    /// Turns agents that stand to the facing that their states want. The planner lets them keep theirs (§4.5).
-    pub(super) fn face_as_wanted(&mut self) {
-        let agents = &mut self.agents;
-        for (index, state) in self.crowd.agents.iter().enumerate() {
-            let Some(facing_rad) = state.aim.facing_rad() else { continue };
-            let plan = &mut agents.plans[index];
-            if agents.preferred_mps[index] == Vec2::ZERO && body_stands(plan) {
-                plan.facing_rad = facing_rad;
-            }
-        }
     }
 
     /// Moves agents to where their states want them at once; there they stand.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::route::braking::coasting_mps;
 use crate::route::standing_position::StandingPosition;
-use crate::simulation::places_behind::{Newcomer, Placed, PlacedCrowd};
+use crate::simulation::standing_crowd::{Newcomer, StandingAgent, StandingCrowd};
 use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
 
 /// Distance from a closed door at which the disc of an agent stands, m: its feet and arms clear the door.
@@ -18,13 +18,13 @@ impl Simulation {
             return;
         }
         let (agents, coupling) = (&mut self.agents, self.scenario.coupling);
-        let placed = agents.route_memory.iter().zip(&agents.radii_m).enumerate();
-        let placed = placed.filter_map(|(index, (memory, &radius_m))| {
+        let of_agents = agents.route_memory.iter().zip(&agents.radii_m).enumerate();
+        let standing = of_agents.filter_map(|(index, (memory, &radius_m))| {
             let door = memory.door.as_ref()?;
             let (standing, to_front_m) = (door.standing?.now(agents.positions_m[index]), door.free_m?);
-            Some(Placed { index, radius_m, standing, to_front_m })
+            Some(StandingAgent { index, radius_m, standing, to_front_m })
         });
-        let crowd = PlacedCrowd::new(placed.collect());
+        let crowd = StandingCrowd::new(standing.collect());
         let moving = agents.positions_m.par_iter().zip(&agents.velocities_mps);
         let present = moving.zip(&agents.radii_m).zip(&agents.removals).enumerate();
         let present = present.zip(agents.route_memory.par_iter_mut().zip(&mut agents.preferred_mps));
@@ -34,10 +34,16 @@ impl Simulation {
                 let stood = door.standing.take().is_some_and(StandingPosition::is_taken);
                 // Without a query in this step it does not walk.
                 let Some(free_m) = door.free_m.take().filter(|_| removal.is_none()) else { return };
-                let motion = [position_m, *preferred_mps, coasting_mps(coupling, velocity_mps)];
-                let to_front_m = free_m - STAND_OFF_M;
-                let newcomer = Newcomer::new(index, motion, radius_m, to_front_m, stood);
-                let behind_others = || newcomer.approach(*preferred_mps, to_front_m, crowd.near(&newcomer));
+                let newcomer = Newcomer {
+                    index,
+                    position_m,
+                    radius_m,
+                    preferred_mps: *preferred_mps,
+                    coasting_mps: coasting_mps(coupling, velocity_mps),
+                    to_front_m: free_m - STAND_OFF_M,
+                    stood,
+                };
+                let behind_others = || newcomer.approach(newcomer.to_front_m, crowd.near(&newcomer));
                 let approach = newcomer.at_front().unwrap_or_else(behind_others);
                 (door.standing, *preferred_mps) = (approach.standing, approach.preferred_mps);
             },

@@ -8,14 +8,11 @@ use std::num::NonZeroU32;
 use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::agents::Agents;
-use crate::maths::angle::unit_vector;
-use crate::planning::mcn::gradual_turn::gradual_facing_at_rest;
 use crate::route::braking::{Braking, coasting_mps};
 use crate::route::standing_position::StandingPosition;
 use crate::scenario::AtGoal;
-use crate::simulation::places_behind::{Approach, Newcomer, Placed, PlacedCrowd};
-use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation, body_stands};
+use crate::simulation::standing_crowd::{Approach, Newcomer, StandingAgent, StandingCrowd};
+use crate::simulation::{ROUTES_PER_TASK_MIN, Simulation};
 
 /// Distance within which a goal is taken, as a share of the sum of both radii.
 const TAKEN_SHARE: f32 = 0.5;
@@ -29,7 +26,7 @@ impl Simulation {
             return;
         }
         let newcomers: Vec<usize> = (0..self.agents.count()).filter(|&index| self.walks_to_stay(index)).collect();
-        let crowd = PlacedCrowd::new(if newcomers.is_empty() { Vec::new() } else { self.placed() });
+        let crowd = StandingCrowd::new(if newcomers.is_empty() { Vec::new() } else { self.standing_agents() });
         let approach = |&index: &usize| (index, self.approach_goal(index, &crowd));
         let approaches: Vec<_> = newcomers.par_iter().with_min_len(ROUTES_PER_TASK_MIN).map(approach).collect();
         self.agents.progress.iter_mut().for_each(|progress| progress.standing = None);
@@ -48,9 +45,9 @@ impl Simulation {
     }
 
     /// The agents that stand, or brake in order to stand: those that did so in the last step, and those that want to stand.
-    fn placed(&self) -> Vec<Placed> {
+    fn standing_agents(&self) -> Vec<StandingAgent> {
         let agents = &self.agents;
-        let placed = |index: usize| {
+        let standing_agent = |index: usize| {
             let position_m = agents.positions_m[index];
             let wants_to_stand = agents.preferred_mps[index] == Vec2::ZERO;
             let here = wants_to_stand.then_some(StandingPosition { position_m, rank: Some(NonZeroU32::MIN) });
@@ -58,30 +55,36 @@ impl Simulation {
             let remembered = agents.progress[index].standing.filter(|_| walks_there);
             let standing = remembered.map(|standing| standing.now(position_m)).or(here)?;
             let to_front_m = self.last_goal_m(index).map_or(0.0, |goal_m| goal_m.distance(position_m));
-            Some(Placed { index, radius_m: agents.radii_m[index], standing, to_front_m })
+            Some(StandingAgent { index, radius_m: agents.radii_m[index], standing, to_front_m })
         };
-        (0..agents.count()).filter_map(placed).collect()
+        (0..agents.count()).filter_map(standing_agent).collect()
     }
 
     /// How an agent that comes to its goal goes on.
-    fn approach_goal(&self, index: usize, crowd: &PlacedCrowd) -> Approach {
+    fn approach_goal(&self, index: usize, crowd: &StandingCrowd) -> Approach {
         let agents = &self.agents;
         let (position_m, preferred_mps) = (agents.positions_m[index], agents.preferred_mps[index]);
         let Some(goal_m) = self.last_goal_m(index) else { return Approach { standing: None, preferred_mps } };
         let offset_m = goal_m - position_m;
         let to_goal_m = offset_m.length();
-        let motion = [position_m, preferred_mps, coasting_mps(self.scenario.coupling, agents.velocities_mps[index])];
-        let stood = agents.progress[index].stands_behind();
-        let newcomer = Newcomer::new(index, motion, agents.radii_m[index], to_goal_m, stood);
+        let newcomer = Newcomer {
+            index,
+            position_m,
+            radius_m: agents.radii_m[index],
+            preferred_mps,
+            coasting_mps: coasting_mps(self.scenario.coupling, agents.velocities_mps[index]),
+            to_front_m: to_goal_m,
+            stood: agents.progress[index].stands_behind(),
+        };
         let is_straight = preferred_mps.dot(offset_m) > STRAIGHT_COS * preferred_mps.length() * to_goal_m;
-        let brakes = is_straight && to_goal_m < newcomer.brakes_m && self.obstacles.is_free(position_m, goal_m);
-        let has_taken = |other: &&Placed| self.has_taken(goal_m, other, &newcomer);
+        let brakes = is_straight && to_goal_m < newcomer.brakes_m() && self.obstacles.is_free(position_m, goal_m);
+        let has_taken = |other: &&StandingAgent| self.has_taken(goal_m, other, &newcomer);
         let up_to_m = if brakes { to_goal_m } else { f32::INFINITY };
-        newcomer.approach(preferred_mps, up_to_m, crowd.near(&newcomer).filter(has_taken))
+        newcomer.approach(up_to_m, crowd.near(&newcomer).filter(has_taken))
     }
 
     /// Whether an agent that stands or brakes has taken the goal of a newcomer, nearer to it, with no wall between.
-    fn has_taken(&self, goal_m: Vec2, other: &Placed, newcomer: &Newcomer) -> bool {
+    fn has_taken(&self, goal_m: Vec2, other: &StandingAgent, newcomer: &Newcomer) -> bool {
         let (other_m, taken_m) = (other.standing.position_m, TAKEN_SHARE * (newcomer.radius_m + other.radius_m));
         let progress = &self.agents.progress[other.index];
         let comes_to_goal = progress.arrived || progress.standing.is_some();
@@ -92,23 +95,8 @@ impl Simulation {
             && self.obstacles.is_free(newcomer.position_m, other_m)
     }
 
-    /// Turns agents that stand around their goals to these; the planner lets them keep their facing (§4.5).
-    pub(super) fn face_taken_goals(&mut self) {
-        for index in 0..self.agents.count() {
-            if !self.agents.progress[index].stands_behind() {
-                continue;
-            }
-            let Some(goal_m) = self.last_goal_m(index) else { continue };
-            let Agents { positions_m, facings_rad, plans, .. } = &mut self.agents;
-            if body_stands(&plans[index]) {
-                let forward = unit_vector(facings_rad[index]);
-                let facing = gradual_facing_at_rest(forward, (goal_m - positions_m[index]).normalize_or(forward));
-                plans[index].facing_rad = libm::atan2f(facing.y, facing.x);
-            }
-        }
-    }
-
-    fn last_goal_m(&self, index: usize) -> Option<Vec2> {
+    /// The last goal of an agent, by index; none without goals.
+    pub(super) fn last_goal_m(&self, index: usize) -> Option<Vec2> {
         self.population.spec(self.agents.ids[index]).goals_m.last().copied()
     }
 }

@@ -31,24 +31,35 @@ const TOLERANCE_AT_REST_RAD: f32 = 0.3;
 /// v_0: speed from which on a body turns for any angle, m/s.
 const TURNS_AT_MPS: f32 = 0.6;
 
-/// The facing to plan for a body that faces `forward` and moves at `speed_mps`: between both, towards `facing`. `turning`
-/// is t. Unit vectors.
-pub(crate) fn gradual_facing(forward: Vec2, facing: Vec2, speed_mps: f32, steps_aside: bool, turning: f32) -> Vec2 {
-    let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
-    let tolerance_rad =
-        if steps_aside { TOLERANCE_AT_REST_RAD } else { 0.0 } * (1.0 - speed_mps / TURNS_AT_MPS).max(0.0);
-    let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
-    let share_per_mps = if steps_aside { SHARE_PER_MPS } else { SHARE_PER_MPS_AHEAD };
-    let share = (SHARE_AT_REST + share_per_mps * speed_mps).min(1.0);
-    let ahead_max_rad = AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * speed_mps + AHEAD_TURNING_RAD * turning;
-    let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
-    let (sin, cos) = libm::sincosf(ahead_rad);
-    Vec2::new(cos, sin).rotate(forward)
+/// What the turn of a body depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TurningBody {
+    /// v: its speed, m/s.
+    pub(crate) speed_mps: f32,
+    /// Whether it can step aside.
+    pub(crate) steps_aside: bool,
+    /// t: how much it turns before it walks, 0 to 1.
+    pub(crate) turns_first: f32,
 }
 
-/// The facing to plan for a body that stands on its feet and faces `forward`, towards `facing`. Unit vectors.
-pub(crate) fn gradual_facing_at_rest(forward: Vec2, facing: Vec2) -> Vec2 {
-    gradual_facing(forward, facing, 0.0, true, 0.0)
+impl TurningBody {
+    /// A body that stands on its feet.
+    pub(crate) const AT_REST: Self = Self { speed_mps: 0.0, steps_aside: true, turns_first: 0.0 };
+
+    /// The facing to plan for this body, which faces `forward`: between both, towards `facing`. Unit vectors.
+    pub(crate) fn gradual_facing(&self, forward: Vec2, facing: Vec2) -> Vec2 {
+        let angle_rad = libm::atan2f(forward.perp_dot(facing), forward.dot(facing));
+        let tolerance_rad = if self.steps_aside { TOLERANCE_AT_REST_RAD } else { 0.0 };
+        let tolerance_rad = tolerance_rad * (1.0 - self.speed_mps / TURNS_AT_MPS).max(0.0);
+        let angle_rad = (angle_rad.abs() - tolerance_rad).max(0.0).copysign(angle_rad);
+        let share_per_mps = if self.steps_aside { SHARE_PER_MPS } else { SHARE_PER_MPS_AHEAD };
+        let share = (SHARE_AT_REST + share_per_mps * self.speed_mps).min(1.0);
+        let ahead_max_rad =
+            AHEAD_AT_REST_RAD + AHEAD_RAD_PER_MPS * self.speed_mps + AHEAD_TURNING_RAD * self.turns_first;
+        let ahead_rad = (share * angle_rad).clamp(-ahead_max_rad, ahead_max_rad);
+        let (sin, cos) = libm::sincosf(ahead_rad);
+        Vec2::new(cos, sin).rotate(forward)
+    }
 }
 
 #[cfg(test)]
@@ -58,7 +69,7 @@ mod tests {
     /// The angle ahead of a body that faces +x, rad.
     fn ahead_rad(facing_rad: f32, speed_mps: f32) -> f32 {
         let (sin, cos) = libm::sincosf(facing_rad);
-        gradual_facing(Vec2::X, Vec2::new(cos, sin), speed_mps, true, 0.0).to_angle()
+        TurningBody { speed_mps, ..TurningBody::AT_REST }.gradual_facing(Vec2::X, Vec2::new(cos, sin)).to_angle()
     }
 
     #[test]
@@ -85,12 +96,16 @@ mod tests {
     fn standing_body_does_not_turn_for_a_small_angle() {
         assert_eq!(ahead_rad(0.25, 0.0), 0.0);
         assert!(ahead_rad(0.25, 0.4) > 0.03 && ahead_rad(-0.25, 0.4) < -0.03);
-        assert!(gradual_facing(Vec2::X, Vec2::from_angle(0.25), 0.0, false, 0.0).y > 0.05);
+        let ahead_only = TurningBody { steps_aside: false, ..TurningBody::AT_REST };
+        assert!(ahead_only.gradual_facing(Vec2::X, Vec2::from_angle(0.25)).y > 0.05);
     }
 
     #[test]
     fn body_that_cannot_step_aside_turns_sooner() {
-        let ahead_rad = |steps_aside| gradual_facing(Vec2::X, Vec2::from_angle(0.4), 1.0, steps_aside, 0.0).to_angle();
+        let ahead_rad = |steps_aside| {
+            let body = TurningBody { speed_mps: 1.0, steps_aside, turns_first: 0.0 };
+            body.gradual_facing(Vec2::X, Vec2::from_angle(0.4)).to_angle()
+        };
         assert!((ahead_rad(true) - 0.22).abs() < 1e-5 && (ahead_rad(false) - 0.32).abs() < 1e-5);
     }
 

@@ -9,7 +9,7 @@ use motiondb::velocity_sets::velocity_hull::Construction;
 use crate::planning::gap::gap_m;
 use crate::planning::mcn::adaptation::adapt;
 use crate::planning::mcn::avoidance::{avoid, stays, waits};
-use crate::planning::mcn::gradual_turn::gradual_facing;
+use crate::planning::mcn::gradual_turn::TurningBody;
 use crate::planning::mcn::memory::McnMemory;
 use crate::planning::mcn::orientation::{self, Orientation, OrientationInput};
 use crate::planning::mcn::params::{McnParams, StanceForm};
@@ -62,14 +62,8 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
         }
     };
     let facing = if world.bodies {
-        let steps_aside = steps_aside(world, agent, memory.forward);
-        let route_mps = world.along_route_mps(agent);
-        let turning = if params.parts.turn_first {
-            turning_along_route(memory.forward, orientation.facing, route_mps)
-        } else {
-            0.0
-        };
-        gradual_facing(memory.forward, orientation.facing, world.velocities_mps[agent].length(), steps_aside, turning)
+        turning_body(world, agent, orientation.facing, params, memory)
+            .gradual_facing(memory.forward, orientation.facing)
     } else {
         orientation.facing
     };
@@ -85,6 +79,17 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &McnParams, memory: 
         gap_m: gap_m(world, agent, velocity_mps, &memory.surroundings),
         room: memory.surroundings.elbow_room(world, agent),
     }
+}
+
+/// What the turn of an agent's body to a facing depends on.
+fn turning_body(world: &WorldView, agent: usize, facing: Vec2, params: &McnParams, memory: &McnMemory) -> TurningBody {
+    let turns_first = if params.parts.turn_first {
+        turning_along_route(memory.forward, facing, world.along_route_mps(agent))
+    } else {
+        0.0
+    };
+    let speed_mps = world.velocities_mps[agent].length();
+    TurningBody { speed_mps, steps_aside: steps_aside(world, agent, memory.forward), turns_first }
 }
 
 /// Whether an agent's body has side-steps to both sides.

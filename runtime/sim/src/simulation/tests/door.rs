@@ -161,8 +161,8 @@ fn agents_wait_calmly_and_all_arrive_after_the_door_opens() {
         let after: Vec<Vec2> = simulation.frames().iter().map(|frame| frame.root.position_m).collect();
         if (450..595).contains(&simulation.steps) {
             walked_m += before.iter().zip(&after).map(|(from_m, to_m)| from_m.distance(*to_m)).sum::<f32>();
-            // Twelve agents with room between them stand up to 4 m deep.
-            let near = after.iter().filter(|at_m| at_m.distance(Vec2::ZERO) < 4.0).count();
+            // Twelve agents with room between them stand up to 3.5 m deep.
+            let near = after.iter().filter(|at_m| at_m.distance(Vec2::ZERO) < 3.5).count();
             assert!(after.iter().all(|at_m| at_m.x < TOUCH_M - 0.2 - HALF_WALL_M) && near > 10, "{after:?}");
         }
         before = after;

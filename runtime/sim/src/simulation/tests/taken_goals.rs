@@ -94,6 +94,7 @@ fn agents_move_up_when_one_goes() {
         (0..(12.0 / simulation.scenario.dt_s) as usize).for_each(|_| simulation.step(&mut |_| {}));
         let left_m: Vec<f32> = simulation.agents.positions_m.iter().map(|at_m| at_m.length()).collect();
         let nearest = (0..left_m.len()).min_by(|&a, &b| left_m[a].total_cmp(&left_m[b])).unwrap();
+        // In steps of .1 s those that come behind push the first one on by a step, before they stand.
         assert!(left_m[nearest] < 0.5, "{left_m:?}");
         simulation.agents.removals[nearest] = Some(Removal::AtOnce);
     }

@@ -28,7 +28,7 @@ const RANK_MAX: u32 = 100;
 
 /// An agent that stands, or brakes in order to stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct StandingAgent {
     pub(super) index: usize,
     pub(super) radius_m: f32,
     /// Where it stands, or will stand.
@@ -38,28 +38,24 @@ pub(super) struct Placed {
 }
 
 /// The agents that stand or brake, by the x of their standing positions.
-pub(super) struct PlacedCrowd {
-    agents: Vec<Placed>,
+pub(super) struct StandingCrowd {
+    agents: Vec<StandingAgent>,
     radius_max_m: f32,
 }
 
 /// An agent that looks for its standing position.
 pub(super) struct Newcomer {
-    index: usize,
+    pub(super) index: usize,
     pub(super) position_m: Vec2,
     pub(super) radius_m: f32,
-    /// Unit direction of v_pref.
-    direction: Vec2,
+    /// v_pref, m/s.
+    pub(super) preferred_mps: Vec2,
+    /// The velocity that it keeps while it coasts, m/s.
+    pub(super) coasting_mps: Vec2,
     /// Its free path to the front, m.
-    to_front_m: f32,
-    /// Distance from its standing position within which it stands, m.
-    slack_m: f32,
-    /// Distance that it coasts, m.
-    coast_m: f32,
-    /// Distance from its standing position within which it brakes, m.
-    pub(super) brakes_m: f32,
-    /// Cosine of the angle within which others stand before it.
-    before_cos: f32,
+    pub(super) to_front_m: f32,
+    /// Whether it stood in the last step.
+    pub(super) stood: bool,
 }
 
 /// How an agent goes on.
@@ -71,17 +67,17 @@ pub(super) struct Approach {
     pub(super) preferred_mps: Vec2,
 }
 
-impl PlacedCrowd {
-    pub(super) fn new(mut agents: Vec<Placed>) -> Self {
-        let x_m = |agent: &Placed| agent.standing.position_m.x;
+impl StandingCrowd {
+    pub(super) fn new(mut agents: Vec<StandingAgent>) -> Self {
+        let x_m = |agent: &StandingAgent| agent.standing.position_m.x;
         agents.sort_by(|a, b| x_m(a).total_cmp(&x_m(b)).then(a.index.cmp(&b.index)));
         let radius_max_m = agents.iter().map(|agent| agent.radius_m).fold(0.0, f32::max);
         Self { agents, radius_max_m }
     }
 
     /// The agents behind which another may have to stand.
-    pub(super) fn near(&self, newcomer: &Newcomer) -> impl Iterator<Item = &Placed> {
-        let reach_m = newcomer.radius_m + self.radius_max_m + GAP_M + newcomer.brakes_m;
+    pub(super) fn near(&self, newcomer: &Newcomer) -> impl Iterator<Item = &StandingAgent> {
+        let reach_m = newcomer.radius_m + self.radius_max_m + GAP_M + newcomer.brakes_m();
         let x_m = newcomer.position_m.x;
         let from = self.agents.partition_point(|other| other.standing.position_m.x < x_m - reach_m);
         self.agents[from..].iter().take_while(move |other| other.standing.position_m.x <= x_m + reach_m)
@@ -89,65 +85,54 @@ impl PlacedCrowd {
 }
 
 impl Newcomer {
-    /// An agent by its index, its position, v_pref and the velocity that it keeps while it coasts, its radius, and its free
-    /// path to the front; `stands` states whether it stood in the last step.
-    pub(super) fn new(
-        index: usize,
-        [position_m, preferred_mps, coasting_mps]: [Vec2; 3],
-        radius_m: f32,
-        to_front_m: f32,
-        stands: bool,
-    ) -> Self {
-        let direction = preferred_mps.normalize_or_zero();
-        let coast_m = coasted_m(coasting_mps, direction);
-        Self {
-            index,
-            position_m,
-            radius_m,
-            direction,
-            to_front_m,
-            slack_m: if stands { MOVES_UP_M } else { (STOPS_M + coast_m).min(MOVES_UP_M) },
-            coast_m,
-            // Of an agent that brakes already, by v_pref, the distance that it needs is just what is left.
-            brakes_m: STOPS_M + coast_m + braking_distance_m(preferred_mps.length()),
-            before_cos: BEFORE_COS[usize::from(stands)],
-        }
-    }
-
     /// It stands at the front; none where it is not there yet.
     pub(super) fn at_front(&self) -> Option<Approach> {
-        (self.to_front_m < self.slack_m).then(|| self.stands(NonZeroU32::MIN))
+        (self.to_front_m < self.stops_m()).then(|| self.stands(NonZeroU32::MIN))
     }
 
     /// How it goes on, behind the agents that stand before it or will stand there, and no farther than `up_to_m`.
-    pub(super) fn approach<'a>(
-        &self,
-        preferred_mps: Vec2,
-        up_to_m: f32,
-        placed: impl Iterator<Item = &'a Placed>,
-    ) -> Approach {
+    pub(super) fn approach<'a>(&self, up_to_m: f32, others: impl Iterator<Item = &'a StandingAgent>) -> Approach {
+        let (direction, stops_m, before_cos) = (self.direction(), self.stops_m(), BEFORE_COS[usize::from(self.stood)]);
         let (mut remaining_m, mut rank): (f32, Option<NonZeroU32>) = (up_to_m, None);
-        for other in placed.filter(|other| self.comes_after(other)) {
+        for other in others.filter(|other| self.comes_after(other)) {
             let offset_m = other.standing.position_m - self.position_m;
             let distance_m = offset_m.length();
-            if self.direction.dot(offset_m) <= self.before_cos * distance_m {
+            if direction.dot(offset_m) <= before_cos * distance_m {
                 continue;
             }
             let free_m = distance_m - self.radius_m - other.radius_m - GAP_M;
             remaining_m = remaining_m.min(free_m);
-            if let Some(before) = other.standing.rank.filter(|_| free_m < self.slack_m) {
+            if let Some(before) = other.standing.rank.filter(|_| free_m < stops_m) {
                 let behind = before.saturating_add(1);
                 rank = Some(rank.map_or(behind, |rank| rank.min(behind)));
             }
         }
-        match rank {
-            Some(rank) => self.stands(rank),
-            None => self.brakes(preferred_mps, remaining_m),
-        }
+        rank.map_or_else(|| self.brakes(remaining_m), |rank| self.stands(rank))
+    }
+
+    /// Distance from its standing position within which it brakes, m.
+    pub(super) fn brakes_m(&self) -> f32 {
+        // Of an agent that brakes already, by v_pref, the distance that it needs is just what is left.
+        STOPS_M + self.coast_m() + braking_distance_m(self.preferred_mps.length())
+    }
+
+    /// Distance from its standing position within which it stands, m.
+    fn stops_m(&self) -> f32 {
+        if self.stood { MOVES_UP_M } else { (STOPS_M + self.coast_m()).min(MOVES_UP_M) }
+    }
+
+    /// Distance that it coasts, m.
+    fn coast_m(&self) -> f32 {
+        coasted_m(self.coasting_mps, self.direction())
+    }
+
+    /// Unit direction of v_pref.
+    fn direction(&self) -> Vec2 {
+        self.preferred_mps.normalize_or_zero()
     }
 
     /// Whether another stands, or brakes and comes to the front before this agent.
-    fn comes_after(&self, other: &Placed) -> bool {
+    fn comes_after(&self, other: &StandingAgent) -> bool {
         let nearer = other.to_front_m.total_cmp(&self.to_front_m).then(other.index.cmp(&self.index)).is_lt();
         let stands_before = other.standing.rank.map_or(nearer, |rank| rank.get() < RANK_MAX);
         other.index != self.index && stands_before
@@ -158,12 +143,12 @@ impl Newcomer {
         Approach { standing: Some(standing), preferred_mps: Vec2::ZERO }
     }
 
-    fn brakes(&self, preferred_mps: Vec2, remaining_m: f32) -> Approach {
-        if remaining_m >= self.brakes_m {
-            return Approach { standing: None, preferred_mps };
+    fn brakes(&self, remaining_m: f32) -> Approach {
+        if remaining_m >= self.brakes_m() {
+            return Approach { standing: None, preferred_mps: self.preferred_mps };
         }
-        let standing = StandingPosition { position_m: self.position_m + remaining_m * self.direction, rank: None };
-        let speed_mps = braking_speed_mps((remaining_m - self.coast_m).max(0.0));
-        Approach { standing: Some(standing), preferred_mps: preferred_mps.clamp_length_max(speed_mps) }
+        let standing = StandingPosition { position_m: self.position_m + remaining_m * self.direction(), rank: None };
+        let speed_mps = braking_speed_mps((remaining_m - self.coast_m()).max(0.0));
+        Approach { standing: Some(standing), preferred_mps: self.preferred_mps.clamp_length_max(speed_mps) }
     }
 }
