@@ -11,7 +11,7 @@ use motiondb::motion::MotionDb;
 use motiondb::quality::coverage::{GapKind, coverage};
 use motiondb::validate::first_broken;
 
-use super::clips::{bundled, bundled_alone, recorded};
+use super::clips::{bundled, bundled_alone, bundled_without, recorded};
 
 /// Agents on a circle, each with the opposite point as its goal.
 const AGENTS: usize = 8;
@@ -88,6 +88,15 @@ fn real_clips_without_enough_motions_are_completed() {
     for path in ["cmu_cgspeed", "cmu_iclone", "games105", "lafan1_skeleton", "pfnn", "gltf/Soldier.glb"] {
         check(recorded(path));
     }
+}
+
+#[test]
+fn a_set_that_lacks_only_steps_back_gets_them() {
+    let db = Arc::new(bundled_without("backward"));
+    let complete = augmented(Arc::clone(&db));
+    let least_mps = |db: &MotionDb| db.velocity_hull.holding_mps.iter().map(|corner| corner.x).fold(0.0, f32::min);
+    assert!(least_mps(&db) > -0.05 && least_mps(&complete) < -0.3, "{} m/s", least_mps(&complete));
+    assert_eq!(deformed_walk(&db, &complete).map(|(_, count)| count), Some(1));
 }
 
 #[test]

@@ -10,8 +10,18 @@ use super::support::{bundled_folder, mocap};
 
 /// The bundled clips that are BVH.
 pub(super) fn bundled() -> MotionDb {
+    compiled(bundled_files())
+}
+
+/// The same, without the clips whose names begin so.
+pub(super) fn bundled_without(beginning: &str) -> MotionDb {
+    let begins = |file: &PathBuf| file.file_name().is_some_and(|name| name.to_string_lossy().starts_with(beginning));
+    compiled(bundled_files().into_iter().filter(|file| !begins(file)).collect())
+}
+
+fn bundled_files() -> Vec<PathBuf> {
     let files = std::fs::read_dir(bundled_folder()).unwrap().map(|entry| entry.unwrap().path());
-    compiled(files.filter(|file| file.extension().is_some_and(|extension| extension == "bvh")).collect())
+    files.filter(|file| file.extension().is_some_and(|extension| extension == "bvh")).collect()
 }
 
 /// One of the bundled clips.

@@ -17,8 +17,10 @@ use motiondb::velocity_sets::velocity_hull;
 use crate::synthesis::library::standing;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 
-/// Coverage gaps with which bodies of a crowd cannot make progress.
-const NEEDED: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
+/// Coverage gaps with which bodies of a crowd make no progress, or turn to and fro in a queue: an agent that may not
+/// step back at held facing turns to where it is pushed (docs/tuning.md).
+const NEEDED: [GapKind; 5] =
+    [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps, GapKind::Backward];
 
 /// Parameters of the cycles that fill each coverage gap, divided by the speed of m_sp: speed, turn rate in rad/m, side
 /// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well
@@ -37,7 +39,7 @@ const FILLING: [(GapKind, Vec3); 11] = [
     (GapKind::Backward, Vec3::new(-0.5, 0.0, 0.0)),
 ];
 
-/// The database itself where bodies can stand and make progress with it; otherwise an augmented one.
+/// The database itself where it has all that bodies of a crowd need; otherwise an augmented one.
 pub fn augmented(db: Arc<MotionDb>) -> Arc<MotionDb> {
     let gaps: Vec<GapKind> = coverage(&db).into_iter().map(|gap| gap.kind).collect();
     let standing = standing::with_standing(db);
