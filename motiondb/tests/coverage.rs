@@ -46,7 +46,7 @@ fn a_single_walk_has_every_gap_but_walking() {
         &[
             (GapKind::Standing, "No clip stands: bodies stand as in the middle of their slowest steps."),
             (GapKind::Running, "No clip runs straight on: the fastest reaches 1.20 m/s."),
-            (GapKind::Backward, "No clip walks straight back: bodies cannot step back."),
+            (GapKind::Backward, "No clip walks straight back: bodies deform a walk for it."),
             (GapKind::WalkingTurns, "At walking speed (1.20 m/s) bodies cannot turn to either side."),
             (GapKind::TurningInPlace, "No clip turns in place to either side: bodies deform a walk for it."),
             (GapKind::SideSteps, "No clip side-steps to either side: bodies deform a walk for them."),

@@ -101,13 +101,17 @@ fn gait_gaps(db: &MotionDb) -> Vec<CoverageGap> {
         true => "No clip walks straight on.",
         false => "No clip walks forward: bodies reach no goal, and no walk can be deformed.",
     };
+    let no_step_back = match walks_ahead(db) {
+        true => "No clip walks straight back: bodies deform a walk for it.",
+        false => "No clip walks straight back.",
+    };
     let walks = straight_speeds_mps(db).any(|speed| (MOVES_MPS..RUN_MPS).contains(&speed));
     let steps_back = straight_speeds_mps(db).any(|speed| speed < -MOVES_MPS);
     let gaits = [
         (stands, GapKind::Standing, "No clip stands: bodies stand as in the middle of their slowest steps.".to_owned()),
         (walks, GapKind::Walking, no_walk.to_owned()),
         (fastest_mps >= RUN_MPS, GapKind::Running, no_run),
-        (steps_back, GapKind::Backward, "No clip walks straight back: bodies cannot step back.".to_owned()),
+        (steps_back, GapKind::Backward, no_step_back.to_owned()),
     ];
     let missing = gaits.into_iter().filter(|(present, ..)| !present);
     missing.map(|(_, kind, sentence)| CoverageGap { kind, sentence }).collect()

@@ -14,7 +14,7 @@ impl Simulation {
             let plan = &self.agents.plans[index];
             let body_stands = plan.waits || orientation::stands(plan.velocity_mps);
             let facing_rad = || self.facing_of_taken_goal_rad(index).or_else(|| self.facing_of_state_rad(index));
-            if let Some(facing_rad) = body_stands.then(facing_rad).flatten() {
+            if body_stands && let Some(facing_rad) = facing_rad() {
                 self.agents.plans[index].facing_rad = facing_rad;
             }
         }
