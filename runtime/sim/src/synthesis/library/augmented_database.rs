@@ -23,9 +23,10 @@ const NEEDED: [GapKind; 5] =
     [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps, GapKind::Backward];
 
 /// Parameters of the cycles that fill each coverage gap, divided by the speed of m_sp: speed, turn rate in rad/m, side
-/// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well
-/// in reach.
-const FILLING: [(GapKind, Vec3); 11] = [
+/// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s. Side-steps also as quick as
+/// the walk: an agent that is pushed more quickly turns to where it is pushed (docs/tuning.md). `fbcrowd bench reach` finds
+/// all in reach.
+const FILLING: [(GapKind, Vec3); 13] = [
     (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),
     (GapKind::Walking, Vec3::new(0.5, 0.0, 0.0)),
     (GapKind::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
@@ -36,6 +37,8 @@ const FILLING: [(GapKind, Vec3); 11] = [
     (GapKind::TurningInPlace, Vec3::new(0.0, -1.3, 0.0)),
     (GapKind::SideSteps, Vec3::new(0.0, 0.0, 0.4)),
     (GapKind::SideSteps, Vec3::new(0.0, 0.0, -0.4)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, 1.0)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, -1.0)),
     (GapKind::Backward, Vec3::new(-0.5, 0.0, 0.0)),
 ];
 
