@@ -33,7 +33,8 @@ pub struct Variation {
     pub trunk_pitch_deg: f32,
     /// Deviation of the head's pitch, degrees.
     pub head_pitch_deg: f32,
-    /// Small motion of head, forearms and hands in walks, divided by that of captures, where the clips lack it.
+    /// Small motion of head, forearms and hands in walks, and sway at rest, divided by that of captures, where the clips
+    /// lack it.
     pub secondary_motion: f32,
     /// Deviation of the size of bodies of the skeleton's size, as a share. Speed and radius stay.
     pub stature: f32,

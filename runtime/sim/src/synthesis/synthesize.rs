@@ -82,6 +82,7 @@ impl Body {
         lean.lean(&mut posture, skeleton);
         let Traits { secondary_motion, secondary_seed, .. } = motion.traits;
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
+        posture.shift(secondary.sway_m(secondary_seed, secondary_motion, &context.lacking));
         let stands = command.step_state.stands && motion.mode == Mode::Blending;
         posture.shift(centring.follow(stands, &contact.locks, &frame, step));
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step) * Vec2::Y);

@@ -1,5 +1,5 @@
-//! Secondary motion: head, forearms and hands of a walking body move a little, each body in its own manner. `FbCrowd`
-//! does not have it.
+//! Secondary motion: head, forearms and hands of a walking body move a little, and so do pelvis and head of one that
+//! stands, each body in its own manner. `FbCrowd` does not have it.
 //!
 //! In captures of walks the head rolls with the stride (0.6 to 1.3 Hz hold half of the energy and more) and drifts (a
 //! quarter below 0.6 Hz); it pitches with drift, stride and step; wrists flex with the stride and tremble a little.
@@ -13,15 +13,16 @@
 //!
 //! n is a cubic B-spline through drawn coefficients, which have a mean of their own for each body: twice continuously
 //! differentiable, of unit variance. θ is the gait phase φ without its jumps: a difference decays softly. The motion
-//! fades with the speed; idles have their own.
+//! fades with the speed. People who stand sway over their feet, and so do most idles. Where a set has none, or one that is
+//! still, pelvis and head of a body at rest drift instead.
 //!
-//! Frames of the parent joints; radians, seconds, rad/s².
+//! Frames of the parent joints; radians, metres, seconds, rad/s².
 
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 use motiondb::body::{Joint, Pose, Skeleton};
-use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::motion::{Action, MotionDb, PHASE_COUNT};
 
 use crate::maths::angle::{rotation, unit_vector};
 use crate::maths::random::SplitMix64;
@@ -35,6 +36,11 @@ const HAND_RAD_S2: f32 = 18.0;
 const FOREARM_RAD: f32 = 0.035;
 /// Deviations of a hand that flexes with the stride, with the step, and trembles about either axis, rad.
 const HAND_RAD: [f32; 3] = [0.07, 0.035, 0.045];
+/// Deviations of the pelvis of a body at rest, forward and to the left, m: in a capture of a person who stands (GAMES-105)
+/// the pelvis stays in a box with a diagonal of 13 mm for 6 s.
+const SWAY_M: Vec2 = Vec2::new(0.0045, 0.003);
+/// Speed of a body that rests no longer, divided by that of a walk.
+const NO_REST: f32 = 0.3;
 /// Shares of drift, stride and step in the variance of roll and pitch of the head.
 const HEAD_SHARES: [[f32; 3]; 2] = [[0.25, 0.65, 0.1], [0.5, 0.3, 0.2]];
 /// Intervals between the coefficients of drift, gait and tremor, s.
@@ -44,17 +50,19 @@ const OWN_SHARE: f32 = 0.4;
 /// Deviation of a coefficient that is uniform in [−1, 1), and of a B-spline through such coefficients.
 const DEVIATIONS: [f32; 2] = [0.577_350_26, 0.399_8];
 
-/// What the base walk of a database lacks of secondary motion: shares of the amplitudes, 0 to 1.
+/// What base walk and idles of a database lack of secondary motion: shares of the amplitudes, 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LackingMotion {
     /// Of roll and pitch of the head.
     pub head: [f32; 2],
     /// Of forearms and hands.
     pub hands: f32,
+    /// Of pelvis and head at rest.
+    pub rest: f32,
 }
 
 impl LackingMotion {
-    /// Compares an example with captures.
+    /// Compares an example, and the idles, with captures.
     pub fn of(db: &MotionDb, example: usize) -> Self {
         let joints = db.posed_rows(example);
         let deviation_rad = |axis: Vec3| {
@@ -78,8 +86,17 @@ impl LackingMotion {
         Self {
             head: [lacking(deviation_rad(Vec3::Y), HEAD_RAD[0]), lacking(deviation_rad(Vec3::X), HEAD_RAD[1])],
             hands: lacking(own_rad_s2, HAND_RAD_S2),
+            rest: lacking(db.idles().map(sway_m).fold(0.0, f32::max), SWAY_M.length()),
         }
     }
+}
+
+/// Deviation of the pelvis of an idle from its mean position on the ground, m.
+fn sway_m(idle: &Action) -> f32 {
+    let positions_m = || idle.frames.iter().map(|frame| frame.pose.pelvis_m.truncate());
+    let mean_m = positions_m().sum::<Vec2>() / idle.frames.len() as f32;
+    let squares_m2 = positions_m().map(|position_m| position_m.distance_squared(mean_m));
+    libm::sqrtf(squares_m2.sum::<f32>() / idle.frames.len() as f32)
 }
 
 const HANDS: [Joint; 2] = [Joint::LeftHand, Joint::RightHand];
@@ -110,6 +127,22 @@ impl SecondaryMotion {
         self.activity = walking.min(1.0);
     }
 
+    /// How much the body rests: 1, down to 0 in slow steps.
+    fn rest(&self) -> f32 {
+        let rest = (1.0 - self.activity / NO_REST).max(0.0);
+        rest * rest
+    }
+
+    /// Displacement of the pelvis of a body at rest, forward and to the left, m.
+    pub(crate) fn sway_m(&self, seed: u64, amplitude: f32, lacking: &LackingMotion) -> Vec2 {
+        let scale = amplitude * lacking.rest * self.rest();
+        if scale == 0.0 {
+            return Vec2::ZERO;
+        }
+        let drift = noises(seed, 0, self.time_s / KNOTS_S[0]);
+        scale * SWAY_M * Vec2::new(drift[4], drift[5])
+    }
+
     /// Moves head, forearms and hands of a pose.
     pub(crate) fn add_to(
         &self,
@@ -120,7 +153,8 @@ impl SecondaryMotion {
         skeleton: &Skeleton,
     ) {
         let scale = amplitude * self.activity;
-        if scale == 0.0 {
+        let rest = amplitude * lacking.rest * self.rest();
+        if scale == 0.0 && rest == 0.0 {
             return;
         }
         let [drift, gait, tremor] = [0, 1, 2].map(|band| noises(seed, band as u64, self.time_s / KNOTS_S[band]));
@@ -131,7 +165,7 @@ impl SecondaryMotion {
             let [of_drift, of_stride, of_step] = HEAD_SHARES[axis].map(libm::sqrtf);
             let first = 4 * axis;
             let whole = of_drift * drift[axis] + of_stride * with(stride, first) + of_step * with(step, first + 2);
-            scale * lacking.head[axis] * HEAD_RAD[axis] * whole
+            HEAD_RAD[axis] * (scale * lacking.head[axis] * whole + rest * drift[axis])
         });
         let head = &mut pose.rotations[Joint::Head.index()];
         *head = rotation(Vec3::new(tips_rad[0], tips_rad[1], 0.0)) * *head;
@@ -192,6 +226,7 @@ mod tests {
 
     use glam::Quat;
     use motiondb::body::{JOINT_COUNT, Root};
+    use motiondb::motion::{ActionEnd, ActionFrame, ActionKind};
 
     use super::*;
     use crate::planning::plan::Plan;
@@ -239,19 +274,59 @@ mod tests {
         }
     }
 
+    /// A set with an idle whose pelvis moves to and fro by `amplitude_m`; without an idle where there is none.
+    fn context_with_idle(amplitude_m: Option<f32>) -> SynthesisContext {
+        let mut db = test_db();
+        let frame = |index: u16| {
+            let mut pose = db.rows.pose(0, 0);
+            pose.pelvis_m.x += amplitude_m.unwrap_or_default() * libm::sinf(TAU * f32::from(index) / 120.0);
+            ActionFrame { pose, contacts: [1.0; 2], root: Root::default() }
+        };
+        let end = ActionEnd { example: 0, phase: 0.0 };
+        let idle = Action {
+            name: "idle".to_owned(),
+            kind: ActionKind::Idle,
+            source: 0,
+            window_s: [0.0, 2.0],
+            mirrored: false,
+            entry: end,
+            exit: end,
+            frames: (0..=120).map(frame).collect(),
+        };
+        db.actions = amplitude_m.map(|_| idle).into_iter().collect();
+        SynthesisContext::new(Arc::new(db), HmsParams::default())
+    }
+
+    /// Poses of a body without and with secondary motion.
+    fn plain_and_moved(context: &SynthesisContext, speed_mps: f32) -> [Vec<Pose>; 2] {
+        [0.0, 1.0].map(|secondary_motion| {
+            poses(context, Traits { secondary_motion, secondary_seed: 5, ..Traits::default() }, speed_mps)
+        })
+    }
+
     #[test]
-    fn bodies_at_rest_and_bodies_without_the_trait_keep_their_poses() {
-        let context = SynthesisContext::new(Arc::new(test_db()), HmsParams::default());
-        let traits = Traits { secondary_motion: 1.0, secondary_seed: 5, ..Traits::default() };
-        assert_eq!(poses(&context, traits, 0.0), poses(&context, Traits::default(), 0.0));
-        let [plain, moved] = [Traits::default(), traits].map(|traits| poses(&context, traits, 1.1));
-        let legs = Joint::LeftThigh.index()..;
-        assert!(
-            plain
+    fn bodies_sway_at_rest_unless_their_idle_does() {
+        for still in [None, Some(0.0)] {
+            let [plain, swaying] = plain_and_moved(&context_with_idle(still), 0.0);
+            assert!(plain.windows(2).all(|pair| pair[0].pelvis_m.distance(pair[1].pelvis_m) < 1e-6));
+            let off_mm = |pose: &Pose| 1e3 * (pose.pelvis_m - plain[0].pelvis_m).truncate();
+            let none = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+            let (low_mm, high_mm) = swaying[120..480]
                 .iter()
-                .zip(&moved)
-                .all(|(plain, moved)| plain.rotations[legs.clone()] == moved.rotations[legs.clone()])
-        );
+                .map(off_mm)
+                .fold(none, |(low_mm, high_mm), off_mm| (low_mm.min(off_mm), high_mm.max(off_mm)));
+            assert!((5.0..25.0).contains(&high_mm.distance(low_mm)), "{low_mm} to {high_mm} mm in 6 s");
+        }
+        let [plain, moved] = plain_and_moved(&context_with_idle(Some(0.02)), 0.0);
+        assert_eq!(plain, moved);
+    }
+
+    #[test]
+    fn legs_keep_their_motion_in_walks() {
+        let [plain, moved] = plain_and_moved(&context_with_idle(Some(0.02)), 1.1);
+        let legs = Joint::LeftThigh.index()..;
+        let mut both = plain.iter().zip(&moved);
+        assert!(both.all(|(plain, moved)| plain.rotations[legs.clone()] == moved.rotations[legs.clone()]));
     }
 
     #[test]
