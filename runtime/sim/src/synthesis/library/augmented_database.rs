@@ -23,8 +23,8 @@ const NEEDED: [GapKind; 5] =
     [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps, GapKind::Backward];
 
 /// Parameters of the cycles that fill each coverage gap, divided by the speed of m_sp: speed, turn rate in rad/m, side
-/// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s. Side-steps also as quick as
-/// the walk: an agent that is pushed more quickly turns to where it is pushed (docs/tuning.md). `fbcrowd bench reach` finds
+/// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; but side-steps also as quick as the walk,
+/// since an agent that is pushed aside more quickly than it side-steps turns (docs/tuning.md). `fbcrowd bench reach` finds
 /// all in reach.
 const FILLING: [(GapKind, Vec3); 13] = [
     (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),

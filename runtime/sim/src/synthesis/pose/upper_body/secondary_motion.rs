@@ -39,8 +39,8 @@ const HAND_RAD: [f32; 3] = [0.07, 0.035, 0.045];
 /// Deviations of the pelvis of a body at rest, forward and to the left, m: in a capture of a person who stands (GAMES-105)
 /// the pelvis stays in a box with a diagonal of 13 mm for 6 s.
 const SWAY_M: Vec2 = Vec2::new(0.0045, 0.003);
-/// Speed of a body that rests no longer, divided by that of a walk.
-const NO_REST: f32 = 0.3;
+/// Speed from which on a body does not rest, divided by that of a walk.
+const RESTING_MAX: f32 = 0.3;
 /// Shares of drift, stride and step in the variance of roll and pitch of the head.
 const HEAD_SHARES: [[f32; 3]; 2] = [[0.25, 0.65, 0.1], [0.5, 0.3, 0.2]];
 /// Intervals between the coefficients of drift, gait and tremor, s.
@@ -86,17 +86,9 @@ impl LackingMotion {
         Self {
             head: [lacking(deviation_rad(Vec3::Y), HEAD_RAD[0]), lacking(deviation_rad(Vec3::X), HEAD_RAD[1])],
             hands: lacking(own_rad_s2, HAND_RAD_S2),
-            rest: lacking(db.idles().map(sway_m).fold(0.0, f32::max), SWAY_M.length()),
+            rest: lacking(db.idles().map(pelvis_deviation_m).fold(0.0, f32::max), SWAY_M.length()),
         }
     }
-}
-
-/// Deviation of the pelvis of an idle from its mean position on the ground, m.
-fn sway_m(idle: &Action) -> f32 {
-    let positions_m = || idle.frames.iter().map(|frame| frame.pose.pelvis_m.truncate());
-    let mean_m = positions_m().sum::<Vec2>() / idle.frames.len() as f32;
-    let squares_m2 = positions_m().map(|position_m| position_m.distance_squared(mean_m));
-    libm::sqrtf(squares_m2.sum::<f32>() / idle.frames.len() as f32)
 }
 
 const HANDS: [Joint; 2] = [Joint::LeftHand, Joint::RightHand];
@@ -127,20 +119,20 @@ impl SecondaryMotion {
         self.activity = walking.min(1.0);
     }
 
-    /// How much the body rests: 1, down to 0 in slow steps.
-    fn rest(&self) -> f32 {
-        let rest = (1.0 - self.activity / NO_REST).max(0.0);
-        rest * rest
-    }
-
     /// Displacement of the pelvis of a body at rest, forward and to the left, m.
     pub(crate) fn sway_m(&self, seed: u64, amplitude: f32, lacking: &LackingMotion) -> Vec2 {
-        let scale = amplitude * lacking.rest * self.rest();
-        if scale == 0.0 {
+        let rest = self.rest(amplitude, lacking);
+        if rest == 0.0 {
             return Vec2::ZERO;
         }
         let drift = noises(seed, 0, self.time_s / KNOTS_S[0]);
-        scale * SWAY_M * Vec2::new(drift[4], drift[5])
+        rest * SWAY_M * Vec2::new(drift[4], drift[5])
+    }
+
+    /// Share of the amplitudes that pelvis and head have at rest: it fades in slow steps.
+    fn rest(&self, amplitude: f32, lacking: &LackingMotion) -> f32 {
+        let resting = (1.0 - self.activity / RESTING_MAX).max(0.0);
+        amplitude * lacking.rest * resting * resting
     }
 
     /// Moves head, forearms and hands of a pose.
@@ -153,7 +145,7 @@ impl SecondaryMotion {
         skeleton: &Skeleton,
     ) {
         let scale = amplitude * self.activity;
-        let rest = amplitude * lacking.rest * self.rest();
+        let rest = self.rest(amplitude, lacking);
         if scale == 0.0 && rest == 0.0 {
             return;
         }
@@ -165,7 +157,7 @@ impl SecondaryMotion {
             let [of_drift, of_stride, of_step] = HEAD_SHARES[axis].map(libm::sqrtf);
             let first = 4 * axis;
             let whole = of_drift * drift[axis] + of_stride * with(stride, first) + of_step * with(step, first + 2);
-            HEAD_RAD[axis] * (scale * lacking.head[axis] * whole + rest * drift[axis])
+            scale * lacking.head[axis] * HEAD_RAD[axis] * whole + rest * HEAD_RAD[axis] * drift[axis]
         });
         let head = &mut pose.rotations[Joint::Head.index()];
         *head = rotation(Vec3::new(tips_rad[0], tips_rad[1], 0.0)) * *head;
@@ -183,6 +175,14 @@ impl SecondaryMotion {
             *hand = rotation(scale * turn_rad) * *hand;
         }
     }
+}
+
+/// Deviation of the pelvis of an idle from its mean position on the ground, m.
+fn pelvis_deviation_m(idle: &Action) -> f32 {
+    let positions_m = || idle.frames.iter().map(|frame| frame.pose.pelvis_m.truncate());
+    let mean_m = positions_m().sum::<Vec2>() / idle.frames.len() as f32;
+    let squares_m2 = positions_m().map(|position_m| position_m.distance_squared(mean_m));
+    libm::sqrtf(squares_m2.sum::<f32>() / idle.frames.len() as f32)
 }
 
 /// Eight noises of one band, of unit variance, at a time in intervals between its coefficients.
