@@ -19,7 +19,7 @@ const IN_PLACE_MPS: f32 = 0.25;
 /// Least rate of a turn in place, rad/s: 30 °/s, half a turn in six seconds.
 const IN_PLACE_TURN_RAD_S: f32 = 30.0 * std::f32::consts::PI / 180.0;
 /// Speed from which people run rather than walk, m/s (Hreljac 1993: 2.05 ± 0.1).
-pub(crate) const RUN_MPS: f32 = 2.05;
+pub const RUN_MPS: f32 = 2.05;
 /// Greatest radius of a walking turn that fits into a corridor, m.
 const TURN_RADIUS_MAX_M: f32 = 1.5;
 /// Greatest difference of neighbouring speeds whose gaits are alike, m/s: slow walk to fast walk.

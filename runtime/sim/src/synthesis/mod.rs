@@ -22,7 +22,7 @@
 //!    chest turn; shoulders turn where room is narrow; the body leans;
 //! 10. `centring`, `weight_shift`, `foot_room`, `foot_lock`, `pelvis`: the pelvis of a standing body moves over its feet,
 //!     and over one of them before a first step; swinging feet move back towards the elbow room, planted ones are locked,
-//!     and the pelvis drops where a leg would not reach;
+//!     and the pelvis drops where a leg would not reach, at limited accelerations;
 //! 11. `ik`: the legs reach their feet;
 //! 12. `body_clearance`: trunk and arms keep within the elbow room that walls and other bodies leave.
 //!

@@ -5,6 +5,7 @@
 use glam::{Vec2, Vec3};
 use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
+use motiondb::quality::coverage::RUN_MPS;
 
 use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
@@ -89,10 +90,12 @@ impl Body {
         let mut contacts_ahead = contacts_ahead(&moment.active, motion, context);
         contact.settling.follow(stands, frame.forward, &posture.contacts, &contact.locks, step.dt_s);
         contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
+        let moves = motion.current(&context.db);
         let feet = FootMotion {
             planted: posture.contacts.map(|contact| contact >= PLANTED_CONTACT),
             contacts_ahead,
-            turn_rate_rad_s: motion.current(&context.db).turn_rate_rad_s,
+            turn_rate_rad_s: moves.turn_rate_rad_s,
+            runs: moves.velocity_mps().length() > RUN_MPS,
             is_new: motion.has_jumped,
         };
         contact.lock_feet(&mut posture, &feet, &room, &frame, skeleton, step);

@@ -2,6 +2,7 @@
 
 mod augmented_database;
 mod clips;
+mod crowds;
 mod generated;
 mod hybrid;
 mod linear_programs;

@@ -11,19 +11,19 @@ use crate::synthesis::pose::foot_lock::{FootLock, Footing, PosedFoot, pivot_rate
 use crate::synthesis::pose::foot_room::back_m;
 use crate::synthesis::pose::leg::FootPose;
 use crate::synthesis::pose::leg_clearance::{LAG_S, aside_m};
-use crate::synthesis::pose::pelvis::PelvisDrop;
+use crate::synthesis::pose::pelvis::PelvisHeight;
 use crate::synthesis::pose::posture::Posture;
 use crate::synthesis::pose::settling_step::SettlingStep;
 
-/// Foot locks, settling step and pelvis drop of a body.
+/// Foot locks, settling step and pelvis height of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactState {
     /// Lock of each foot, `[left, right]`.
     pub locks: [FootLock; 2],
     /// Step by which a standing body brings a foot under itself.
     pub settling: SettlingStep,
-    /// Drop of the pelvis.
-    pelvis_drop: PelvisDrop,
+    /// Height of the pelvis.
+    pelvis: PelvisHeight,
 }
 
 impl ContactState {
@@ -31,11 +31,12 @@ impl ContactState {
     pub(crate) fn standing(posture: &Posture, frame: &RootFrame, skeleton: &Skeleton) -> Self {
         let soles_m = posture.soles_m(skeleton);
         let lock = |side: usize| FootLock::new(&posed_foot(frame, &posture.feet[side], soles_m[side]));
-        Self { locks: [0, 1].map(lock), ..Self::default() }
+        let pelvis = PelvisHeight::standing(posture.pose.pelvis_m.z);
+        Self { locks: [0, 1].map(lock), pelvis, ..Self::default() }
     }
 
-    /// Moves the feet of a posture to their locks, swinging ones back towards the room and past the stance leg, and lowers
-    /// its pelvis by what the legs then require.
+    /// Moves the feet of a posture to their locks, swinging ones back towards the room and past the stance leg, and moves
+    /// its pelvis to where the legs then reach.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,
@@ -75,7 +76,7 @@ impl ContactState {
             locked[side] =
                 FootPose { ankle_m: frame.to_local(lock.ankle_m), orientation: lock.twist * foot.orientation };
         }
-        posture.lock_feet(locked, held, |drops_m| self.pelvis_drop.follow(drops_m, motion.is_new, step));
+        posture.lock_feet(locked, held, |wanted| self.pelvis.follow(wanted, motion.runs, step));
     }
 
     /// Records the soles as the legs could draw them.
@@ -95,6 +96,8 @@ pub(crate) struct FootMotion {
     pub(crate) contacts_ahead: [f32; 2],
     /// Turn rate of the body, rad/s.
     pub(crate) turn_rate_rad_s: f32,
+    /// Whether the body is as fast as people who run.
+    pub(crate) runs: bool,
     /// Whether this is the first step after a switch.
     pub(crate) is_new: bool,
 }

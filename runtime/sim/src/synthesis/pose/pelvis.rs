@@ -1,4 +1,4 @@
-//! The drop of the pelvis where feet are away from where the pose has them.
+//! The height of the pelvis: its drop where feet are away from where the pose has them, and how it moves over time.
 //!
 //! d is the drop that a leg needs to reach its target, d⁰ the drop that it needs to reach the pose's own foot; both are
 //! negative where the leg reaches. With the softness s,
@@ -13,9 +13,9 @@
 //! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at
 //!   the pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of
 //!   both legs'.
-//! - *Over time*: the pelvis drops and rises at limited accelerations ([`PelvisDrop`]), and comes softly to the height
-//!   of the pose. A foot that leaves the ground far behind needs no drop from one moment to the next, and a swinging foot
-//!   may be out of reach for a moment. A held foot may not.
+//! - *Over time*: the pelvis as it is drawn rises and falls at limited accelerations ([`PelvisHeight`]), whoever moves it,
+//!   the pose or the drop, and comes softly to the height of the pose. A foot that leaves the ground far behind needs no
+//!   drop from one moment to the next, and a swinging foot may be out of reach for a moment. A held foot may not.
 //!
 //! Root frame (x forward, y left, z up), metres.
 
@@ -30,60 +30,77 @@ use crate::synthesis::pose::leg_length::length_max_m;
 pub(crate) const DROP_MAX_M: f32 = 0.12;
 /// Softness s for locked feet, m: less than the hips bob in walking. At 0.01 m knees snap at stops.
 pub(crate) const SOFTNESS_M: f32 = 0.014;
-/// Greatest upward acceleration that the pelvis has from the end of a drop, m/s². With that of walking, 4 m/s², it
-/// stays well below a lurch.
-const RISE_MPS2: f32 = 8.0;
-/// Greatest downward acceleration from a drop that begins, m/s², as long as held feet are in reach.
-const DROP_MPS2: f32 = 10.0;
-/// Acceleration at which the pelvis meets the needed drop, m/s²: less, because the motion itself may turn meanwhile.
+/// Greatest accelerations up and down of the pelvis of a body that walks, m/s², as long as held feet are in reach: walks have
+/// 4 m/s², a lurch 18.
+const RISE_MPS2: f32 = 12.0;
+const FALL_MPS2: f32 = 14.0;
+/// Acceleration at which the pelvis meets the height that is wanted, m/s²: less, because the motion itself may turn meanwhile.
 const MEETING_MPS2: f32 = 4.0;
-/// Height by which the pelvis may be above the drop that held feet need, m: what straight legs still have beyond
+/// Height by which the pelvis may be above the reach of held feet, m: what straight legs still have beyond
 /// [`EXTENSION`](crate::synthesis::pose::leg_length::EXTENSION).
 const LATE_MAX_M: f32 = 0.006;
+/// Depth beyond the greatest drop to which a pelvis may sink that stops softly, m.
+const SAG_MAX_M: f32 = 0.06;
 /// Softness for deformed walks, m: what a knee flexed by 15° lacks until its leg is straight.
 const DEFORMED_SOFTNESS_M: f32 = 0.006;
 
-/// Drop of the pelvis of a body over time. It follows the drop that the pose has and the legs need at limited
-/// accelerations, in either direction.
+/// Height of the pelvis of a body over time. At limited accelerations it follows the height from which the legs reach the
+/// feet easily; it meets that height, and the pose, without a bump.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct PelvisDrop {
-    /// Drop beyond the needed one, m; negative where the pelvis is late.
-    lag_m: f32,
-    /// Rate of change of the whole drop, m/s.
-    rate_mps: f32,
-    /// Needed drop, m.
-    needed_m: f32,
-    /// Rate of change of the needed drop, m/s.
-    needed_mps: f32,
+pub(crate) struct PelvisHeight {
+    /// Height as drawn, m.
+    height_m: f32,
+    /// Rate of change of that height, m/s.
+    climb_mps: f32,
+    /// The heights that were wanted last.
+    wanted: WantedHeights,
+    /// Rate of change of the pose's height, m/s.
+    posed_mps: f32,
 }
 
-impl PelvisDrop {
-    /// The drop after a step in which `needed_m` is needed in all, and `held_m` by the feet that are held, m. In the
-    /// first step after a switch (`is_new_motion`) the needed drop jumps with the pose, and inertialization carries the
-    /// jump.
-    pub(crate) fn follow(&mut self, [needed_m, held_m]: [f32; 2], is_new_motion: bool, step: &TimeStep) -> f32 {
-        if !is_new_motion {
-            self.needed_mps = (needed_m - self.needed_m) / step.dt_s;
-        }
-        let (least_mps, greatest_mps) = (self.rate_mps - RISE_MPS2 * step.dt_s, self.rate_mps + DROP_MPS2 * step.dt_s);
-        let rate_mps = (self.needed_mps - meeting_mps(self.lag_m, step.dt_s)).clamp(least_mps, greatest_mps);
-        let drop_m = needed_m - step.dt_s * self.needed_mps + self.lag_m;
-        let to_pose_m = (drop_m - needed_m.min(0.0)).max(0.0);
-        let rate_mps = rate_mps.max(-meeting_mps(to_pose_m, step.dt_s));
-        let lag_m = self.lag_m + step.dt_s * (rate_mps - self.needed_mps);
-        let late_max_m = LATE_MAX_M + (needed_m - held_m).max(0.0);
-        let lag_m = lag_m.clamp(-late_max_m, (DROP_MAX_M - needed_m).max(0.0));
-        self.rate_mps = self.needed_mps + (lag_m - self.lag_m) / step.dt_s;
-        (self.lag_m, self.needed_m) = (lag_m, needed_m);
-        needed_m + lag_m
+/// Heights that pose and legs want of the pelvis, m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct WantedHeights {
+    /// Height of the pose.
+    pub(crate) posed_m: f32,
+    /// Greatest height from which the legs reach the feet easily; at most that of the pose.
+    pub(crate) easy_m: f32,
+    /// Greatest height from which the legs reach the feet that are held; infinite where none is.
+    pub(crate) greatest_m: f32,
+}
+
+impl PelvisHeight {
+    /// The pelvis of a body that stands, at a height, m.
+    pub(crate) fn standing(height_m: f32) -> Self {
+        let wanted = WantedHeights { posed_m: height_m, easy_m: height_m, greatest_m: f32::INFINITY };
+        Self { height_m, wanted, ..Self::default() }
+    }
+
+    /// The height after a step, m. The pelvis of a body that runs may accelerate as its pose does.
+    pub(crate) fn follow(&mut self, wanted: &WantedHeights, runs: bool, step: &TimeStep) -> f32 {
+        let dt_s = step.dt_s;
+        let posed_mps = (wanted.posed_m - self.wanted.posed_m) / dt_s;
+        let easy_mps = (wanted.easy_m - self.wanted.easy_m) / dt_s;
+        let own_mps2 = if runs { (posed_mps - self.posed_mps) / dt_s } else { 0.0 };
+        let least_mps = self.climb_mps - FALL_MPS2.max(-own_mps2) * dt_s;
+        let greatest_mps = self.climb_mps + RISE_MPS2.max(own_mps2) * dt_s;
+        let to_easy_mps = easy_mps + meeting_mps(self.wanted.easy_m - self.height_m, dt_s);
+        let to_pose_mps = posed_mps + meeting_mps((self.wanted.posed_m - self.height_m).max(0.0), dt_s);
+        let climb_mps = to_easy_mps.min(to_pose_mps).clamp(least_mps, greatest_mps);
+        let least_m = wanted.posed_m - DROP_MAX_M - SAG_MAX_M;
+        let greatest_m = wanted.greatest_m.max(wanted.easy_m) + LATE_MAX_M;
+        let height_m = (self.height_m + dt_s * climb_mps).clamp(least_m, greatest_m);
+        self.climb_mps = (height_m - self.height_m) / dt_s;
+        (self.height_m, self.wanted, self.posed_mps) = (height_m, *wanted, posed_mps);
+        height_m
     }
 }
 
-/// The greatest speed at which a lag can shrink and still end without a bump, in whole steps, m/s.
-fn meeting_mps(lag_m: f32, dt_s: f32) -> f32 {
+/// The greatest speed at which a distance can shrink and still end without a bump, in whole steps, m/s.
+fn meeting_mps(distance_m: f32, dt_s: f32) -> f32 {
     let half_step_mps = 0.5 * MEETING_MPS2 * dt_s;
-    let size_mps = libm::sqrtf(2.0 * MEETING_MPS2 * lag_m.abs() + half_step_mps * half_step_mps) - half_step_mps;
-    size_mps.min(lag_m.abs() / dt_s).copysign(lag_m)
+    let size_mps = libm::sqrtf(2.0 * MEETING_MPS2 * distance_m.abs() + half_step_mps * half_step_mps) - half_step_mps;
+    size_mps.min(distance_m.abs() / dt_s).copysign(distance_m)
 }
 
 /// D: drop of the pelvis where the feet are at the targets of a deformed walk, m; negative where the pelvis rises.
@@ -201,44 +218,53 @@ mod tests {
         assert!(slopes.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.05), "{slopes:?}");
     }
 
+    const DT_S: f32 = 1.0 / 120.0;
+
+    /// Drops below the pose, step by step, of a pelvis whose pose is at `posed_m` and whose feet need `needed_m`, m; the feet
+    /// are held, or swing.
+    fn followed_m(posed_m: impl Fn(usize) -> f32, needed_m: impl Fn(usize) -> f32, held: bool, runs: bool) -> Vec<f32> {
+        let mut pelvis = PelvisHeight::standing(posed_m(0));
+        let follow = |index: usize| {
+            let (posed_m, needed_m) = (posed_m(index), needed_m(index));
+            let easy_m = posed_m - needed_m;
+            let greatest_m = if held { easy_m } else { f32::INFINITY };
+            let wanted = WantedHeights { posed_m, easy_m, greatest_m };
+            posed_m - pelvis.follow(&wanted, runs, &TimeStep::new(DT_S))
+        };
+        (0..180).map(follow).collect()
+    }
+
+    /// Greatest vertical acceleration over steps from 0.5 s on, m/s².
+    fn greatest_mps2(heights_m: &[f32]) -> f32 {
+        let bends_m = heights_m[60..].windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs());
+        bends_m.fold(0.0, f32::max) / (DT_S * DT_S)
+    }
+
+    /// Drops below a pose that keeps its height, m.
+    fn followed_drops_m(needed_m: impl Fn(usize) -> f32, held: bool) -> Vec<f32> {
+        followed_m(|_| 0.9, needed_m, held, false)
+    }
+
     #[test]
     fn the_pelvis_rises_slowly_after_a_foot_leaves() {
-        let step = TimeStep::new(1.0 / 120.0);
-        let mut drop = PelvisDrop::default();
-        let required_m = (0..120).map(|step| if (30..60).contains(&step) { 0.002 * (step - 30) as f32 } else { 0.0 });
-        let drops_m: Vec<f32> =
-            required_m.clone().map(|required_m| drop.follow([required_m; 2], false, &step)).collect();
-        assert!(required_m.zip(&drops_m).all(|(required_m, &drop_m)| drop_m >= required_m - LATE_MAX_M));
-        let rising = drops_m[59..].windows(3);
-        let accelerations_mps2 = rising.map(|three| (three[0] - 2.0 * three[1] + three[2]).abs() * 120.0 * 120.0);
-        assert!(accelerations_mps2.fold(0.0, f32::max) < 1.1 * RISE_MPS2 && drops_m[119] < 1e-3);
+        let needed_m = |step: usize| if (60..90).contains(&step) { 0.002 * (step - 60) as f32 } else { 0.0 };
+        let drops_m = followed_drops_m(needed_m, true);
+        assert!((0..180).all(|step| drops_m[step] >= needed_m(step) - LATE_MAX_M - 1e-6));
+        assert!(greatest_mps2(&drops_m) < 1.1 * FALL_MPS2 && drops_m[179] < 1e-3, "{}", greatest_mps2(&drops_m));
     }
 
     #[test]
-    fn a_sudden_drop_ends_at_the_greatest() {
-        let step = TimeStep::new(1.0 / 120.0);
-        let mut drop = PelvisDrop::default();
-        let needed_m = (0..60).map(|step: i32| (0.03 * step as f32).min(DROP_MAX_M));
-        let deepest_m = needed_m.map(|needed_m| drop.follow([needed_m; 2], false, &step)).fold(0.0, f32::max);
-        assert!(deepest_m <= DROP_MAX_M, "{deepest_m}");
-    }
-
-    /// Greatest vertical acceleration from 0.5 s on of a pelvis whose feet need drops, step by step, m/s²; `held` where
-    /// the feet are held.
-    fn greatest_mps2(needed_m: impl Fn(usize) -> f32, held: bool) -> f32 {
-        let step = TimeStep::new(1.0 / 120.0);
-        let mut drop = PelvisDrop::default();
-        let held_m = |needed_m: f32| if held { needed_m } else { f32::NEG_INFINITY };
-        let drops_m: Vec<f32> =
-            (0..180).map(needed_m).map(|needed_m| drop.follow([needed_m, held_m(needed_m)], false, &step)).collect();
-        let bends_m = drops_m[60..].windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs());
-        bends_m.fold(0.0, f32::max) / (step.dt_s * step.dt_s)
+    fn a_sudden_drop_ends_near_the_greatest() {
+        let drops_m = followed_drops_m(|step| (0.03 * step as f32).min(DROP_MAX_M), true);
+        let deepest_m = drops_m.iter().copied().fold(0.0, f32::max);
+        assert!(deepest_m <= DROP_MAX_M + SAG_MAX_M + 1e-6, "{deepest_m}");
+        assert!((drops_m[179] - DROP_MAX_M).abs() < 1e-3, "{}", drops_m[179]);
     }
 
     #[test]
     fn a_swinging_foot_out_of_reach_is_no_lurch() {
-        let jump_m = |step: usize| if step < 70 { 0.0 } else { 0.08 };
-        assert!(greatest_mps2(jump_m, false) < 1.1 * DROP_MPS2);
+        let drops_m = followed_drops_m(|step| if step < 70 { 0.0 } else { 0.08 }, false);
+        assert!(greatest_mps2(&drops_m) < 1.1 * FALL_MPS2, "{}", greatest_mps2(&drops_m));
     }
 
     #[test]
@@ -249,18 +275,40 @@ mod tests {
             if left_m > 0.025 { left_m } else { 0.0 }
         };
         for needed_m in [&rise_m as &dyn Fn(usize) -> f32, &released_m] {
-            assert!(greatest_mps2(needed_m, true) < 1.1 * RISE_MPS2, "{}", greatest_mps2(needed_m, true));
+            let drops_m = followed_drops_m(needed_m, true);
+            assert!(greatest_mps2(&drops_m) < 1.1 * RISE_MPS2, "{}", greatest_mps2(&drops_m));
+            assert!(drops_m.iter().all(|&drop_m| drop_m > -0.002));
         }
     }
 
+    /// A pose that bounces with so many m/s², three times a second.
+    fn bounce_m(mps2: f32) -> impl Fn(usize) -> f32 {
+        let rate = 6.0 * std::f32::consts::PI;
+        move |step| 0.9 - mps2 / (rate * rate) * libm::cosf(rate * step as f32 * DT_S)
+    }
+
+    /// The height as drawn of a pelvis whose pose is at `posed_m`, m.
+    fn drawn_m(posed_m: impl Fn(usize) -> f32, needed_m: impl Fn(usize) -> f32, runs: bool) -> Vec<f32> {
+        let drops_m = followed_m(&posed_m, needed_m, false, runs);
+        (0..180).map(|step| posed_m(step) - drops_m[step]).collect()
+    }
+
     #[test]
-    fn the_pelvis_keeps_its_lag_where_the_motion_changes() {
-        let step = TimeStep::new(1.0 / 120.0);
-        let mut drop = PelvisDrop::default();
-        let mut lags_m = (0..30).map(|step| if step < 15 { 0.05 } else { 0.0 }).collect::<Vec<f32>>();
-        lags_m.iter_mut().for_each(|needed_m| *needed_m = drop.follow([*needed_m; 2], false, &step) - *needed_m);
-        let lag_m = drop.follow([0.03; 2], true, &step) - 0.03;
-        assert!(lag_m > 0.01 && (lag_m - (2.0 * lags_m[29] - lags_m[28])).abs() < 1e-3, "{lag_m} {lags_m:?}");
+    fn pose_and_drop_together_are_no_lurch() {
+        // The drop begins where the pose falls, as after a landing.
+        let needed_m = |step: usize| if step % 40 < 20 { 0.0 } else { 0.03 };
+        let heights_m = drawn_m(bounce_m(8.0), needed_m, false);
+        assert!(greatest_mps2(&heights_m) < 1.1 * FALL_MPS2, "{}", greatest_mps2(&heights_m));
+    }
+
+    #[test]
+    fn a_walk_keeps_its_bounce_and_a_run_a_greater_one() {
+        for (mps2, runs) in [(5.0, false), (25.0, true)] {
+            let (posed_m, heights_m) = (bounce_m(mps2), drawn_m(bounce_m(mps2), |_| 0.0, runs));
+            assert!((60..180).all(|step| (heights_m[step] - posed_m(step)).abs() < 1e-3), "{mps2} m/s²");
+        }
+        let heights_m = drawn_m(bounce_m(25.0), |_| 0.0, false);
+        assert!(greatest_mps2(&heights_m) < 1.1 * FALL_MPS2, "{}", greatest_mps2(&heights_m));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use motiondb::body::{Pose, Skeleton};
 use crate::synthesis::pose::lean::incline::incline;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg, legs};
 use crate::synthesis::pose::leg_length::softly_reached_m;
+use crate::synthesis::pose::pelvis::WantedHeights;
 use crate::synthesis::pose::{heel_rise, ik, pelvis};
 
 /// A pose and the targets of its feet.
@@ -22,15 +23,13 @@ pub struct Posture {
     pub feet: [FootPose; 2],
     /// Contact of each foot with the ground, 0 to 1.
     pub contacts: [f32; 2],
-    /// Drop of the pelvis so far, m; negative where it has risen.
-    lowered_m: f32,
 }
 
 impl Posture {
     /// A pose whose feet are at their targets.
     pub fn new(pose: Pose, contacts: [f32; 2], skeleton: &Skeleton) -> Self {
         let legs = legs(&pose, skeleton);
-        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts, lowered_m: 0.0 }
+        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts }
     }
 
     /// Takes the feet of the pose as targets, after a change of the pose.
@@ -48,12 +47,18 @@ impl Posture {
         self.feet = feet;
     }
 
-    /// Moves the targets to those of foot locks, some of which are `held`; legs stretch softly to the others. `pelvis_drop`
-    /// receives the whole drop of the pelvis that the pose has and the legs require, and the part of it that held feet need,
-    /// m, and returns the drop that it makes.
-    pub fn lock_feet(&mut self, mut feet: [FootPose; 2], held: [bool; 2], pelvis_drop: impl FnOnce([f32; 2]) -> f32) {
-        let drops_m = pelvis::locked_drops_m(&self.legs, &self.feet, &feet, held);
-        self.lower(pelvis_drop(drops_m.map(|drop_m| self.lowered_m + drop_m)) - self.lowered_m);
+    /// Moves the targets to those of foot locks, some of which are `held`, and the pelvis to the height that `pelvis_m`
+    /// returns for what pose and legs want of it, m; legs stretch softly to the feet that are not held.
+    pub(crate) fn lock_feet(
+        &mut self,
+        mut feet: [FootPose; 2],
+        held: [bool; 2],
+        pelvis_m: impl FnOnce(&WantedHeights) -> f32,
+    ) {
+        let posed_m = self.pose.pelvis_m.z;
+        let [easy_m, greatest_m] =
+            pelvis::locked_drops_m(&self.legs, &self.feet, &feet, held).map(|drop_m| posed_m - drop_m);
+        self.lower(posed_m - pelvis_m(&WantedHeights { posed_m, easy_m, greatest_m }));
         for ((leg, foot), _) in self.legs.iter().zip(&mut feet).zip(held).filter(|(_, is_held)| !is_held) {
             foot.ankle_m = softly_reached_m(leg, foot.ankle_m);
         }
@@ -83,7 +88,6 @@ impl Posture {
     }
 
     fn lower(&mut self, drop_m: f32) {
-        self.lowered_m += drop_m;
         self.pose.pelvis_m.z -= drop_m;
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
     }
