@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use fbcrowd_sim::planning::mcn::TIME_TO_LANDING_MIN_S;
 use fbcrowd_sim::planning::orca::HalfPlaneSource;
 use fbcrowd_sim::planning::{PlanExplanation, Planner, Stance};
 use fbcrowd_sim::recording::Replay;
@@ -16,8 +17,6 @@ use super::clips::{bundled, marine};
 
 /// How far the packing of poses may shift the clearance of the stance foot's half-plane, m.
 const CLEARANCE_TOLERANCE_M: f32 = 1e-4;
-/// Least time to landing for that half-plane, s (`stance_half_plane`).
-const TIME_TO_LANDING_MIN_S: f32 = 0.02;
 
 fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenarios/{name}.toml"));

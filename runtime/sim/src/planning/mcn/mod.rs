@@ -30,4 +30,4 @@ pub(crate) mod turn_first;
 
 pub use motion_constraints::{ConvexSet, MotionConstraints};
 pub use params::{McnParams, McnParts, StanceForm};
-pub use stance_half_plane::stance_half_plane;
+pub use stance_half_plane::{TIME_TO_LANDING_MIN_S, stance_half_plane};

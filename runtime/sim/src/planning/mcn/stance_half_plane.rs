@@ -15,7 +15,7 @@ use crate::planning::plan::{Stance, StanceFoot};
 use crate::world::segment::nearest_on_segment;
 
 /// Least time to landing, s: below it a body cannot follow the bound any more.
-const TIME_TO_LANDING_MIN_S: f32 = 0.02;
+pub const TIME_TO_LANDING_MIN_S: f32 = 0.02;
 
 /// Halvings that find k: to a ten-thousandth of its range.
 const RADIAL_HALVINGS: u32 = 14;

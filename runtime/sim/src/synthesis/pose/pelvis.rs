@@ -13,9 +13,9 @@
 //! - *Locked feet*: the pelvis only drops further. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at
 //!   the pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of
 //!   both legs'.
-//! - *Over time*: the pelvis as it is drawn rises and falls at limited accelerations ([`PelvisHeight`]), whoever moves it,
-//!   the pose or the drop, and comes softly to the height of the pose. A foot that leaves the ground far behind needs no
-//!   drop from one moment to the next, and a swinging foot may be out of reach for a moment. A held foot may not.
+//! - *Over time*: the pelvis as it is drawn rises and falls at limited accelerations ([`PelvisHeight`]), those of pose and
+//!   drop together, and comes softly to the height of the pose. A foot that leaves the ground far behind needs no drop from
+//!   one moment to the next, and a swinging foot may be out of reach for a moment. A held foot may not.
 //!
 //! Root frame (x forward, y left, z up), metres.
 

@@ -105,9 +105,9 @@ impl Scene {
             scene.positions_m[0] += moved_m;
             scene.planned(planner, hull).velocity_mps
         };
-        let changes_mps = [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y]
-            .map(|towards| planned_mps(ROUNDING_M * towards).distance(planned_mps(Vec2::ZERO)));
-        changes_mps.into_iter().fold(0.0, f32::max)
+        let here_mps = planned_mps(Vec2::ZERO);
+        let towards = [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y];
+        towards.map(|towards| planned_mps(ROUNDING_M * towards).distance(here_mps)).into_iter().fold(0.0, f32::max)
     }
 
     /// The plan of the first agent.
