@@ -85,15 +85,18 @@ impl Body {
         secondary.add_to(&mut posture.pose, secondary_seed, secondary_motion, &context.lacking, skeleton);
         posture.shift(secondary.sway_m(secondary_seed, secondary_motion, &context.lacking));
         let stands = command.step_state.stands && motion.mode == Mode::Blending;
-        posture.shift(centring.follow(stands, &contact.locks, &frame, step));
+        let moves = motion.current(&context.db);
+        let places_m = places_at_rest_m(moves.velocity_mps(), &root.frame(), &frame, context);
+        let off_m = contact.off_m(&frame, &places_m);
+        posture.shift(centring.follow(stands, &contact.locks, &off_m, step));
         posture.shift(weight_shift.follow(&contact.locks, posture.pose.pelvis_m.y, &frame, step) * Vec2::Y);
         let mut contacts_ahead = contacts_ahead(&moment.active, motion, context);
-        contact.settling.follow(stands, frame.forward, &posture.contacts, &contact.locks, step.dt_s);
+        contact.settling.follow(stands, &posture.contacts, &contact.locks, &off_m, step.dt_s);
         contact.settling.lift(&mut posture.contacts, &mut contacts_ahead);
-        let moves = motion.current(&context.db);
         let feet = FootMotion {
             planted: posture.contacts.map(|contact| contact >= PLANTED_CONTACT),
             contacts_ahead,
+            places_m,
             turn_rate_rad_s: moves.turn_rate_rad_s,
             runs: moves.velocity_mps().length() > RUN_MPS,
             is_new: motion.has_jumped,
@@ -112,6 +115,13 @@ impl Body {
         }
         output
     }
+}
+
+/// Places of the balls of the feet of a body that has braked from a velocity to rest, in the frame of the drawn body, m.
+fn places_at_rest_m(velocity_mps: Vec2, root: &RootFrame, drawn: &RootFrame, context: &SynthesisContext) -> [Vec2; 2] {
+    let to_rest_m = velocity_mps.length() / (2.0 * context.params.acceleration_max_mps2) * velocity_mps;
+    let in_drawn_frame = |point_m: Vec2| drawn.to_local(root.to_world(point_m.extend(0.0))).truncate();
+    context.domain.standing_balls_m.map(|ball_m| in_drawn_frame(ball_m + to_rest_m))
 }
 
 /// The posture of the drawn motion; its legs are bent where a pose difference is to be added.

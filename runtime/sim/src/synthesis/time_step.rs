@@ -59,8 +59,8 @@ pub const INERTIA_DURATION_S: f32 = 0.4;
 const LOOK_BACK_S: f32 = 1.0 / 120.0;
 /// Rate of the filter that releases a foot lock (`foot_lock`), 1/s: 2 % is left after 0.25 s, before the foot lands.
 const LOCK_RELEASE_RATE_HZ: f32 = 30.0;
-/// Rate of the filter that moves a foot in a settling step (`foot_lock`), 1/s: 2 % of the way is left when it lands.
-const SETTLING_RATE_HZ: f32 = 20.0;
+/// Rate of the filter that moves a foot in a settling step (`foot_lock`), 1/s: 3 % of the way is left when it lands.
+const SETTLING_RATE_HZ: f32 = 16.0;
 /// Rate of the filter that lowers a planted sole to the ground and lifts a swinging one (`foot_lock`), 1/s.
 const FOOT_LIFT_RATE_HZ: f32 = 80.0;
 /// Time constant with which a foot that lands while it still moves comes to rest (`foot_lock`), s. It is well within

@@ -73,8 +73,8 @@ pub struct BlendDomain {
     pub strafe_range_mps: [f32; 2],
     /// The answer for (0, 0, 0): standing, or the slowest that the database has.
     pub standing: Reachable,
-    /// Balls of the feet of a standing body in the root frame, `[left, right]`, m.
-    pub standing_balls_m: [Vec3; 2],
+    /// Balls of the feet of a standing body on the ground in the root frame, `[left, right]`, m.
+    pub standing_balls_m: [Vec2; 2],
 }
 
 /// The nearest point to a query that a body reaches.
@@ -129,7 +129,7 @@ impl BlendDomain {
         domain.standing = domain.reachable(Parameters::default());
         let standing = ExampleMix::new(&domain.standing.shares).weights(db, 0.0).pose(db, 0.0);
         let joints = standing.forward_kinematics(&db.skeleton);
-        domain.standing_balls_m = [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side)[1]);
+        domain.standing_balls_m = [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side)[1].truncate());
         domain
     }
 

@@ -28,10 +28,7 @@ pub(crate) fn first_step_phase(
 ) -> f32 {
     let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = command;
     let (direction, frame) = (Vec2::new(speed_mps, strafe_mps).normalize_or_zero(), root.frame());
-    let ahead_m = [0, 1].map(|side| {
-        let ball_m = frame.to_local(contact.locks[side].ball_m()) - domain.standing_balls_m[side];
-        ball_m.truncate().dot(direction)
-    });
+    let ahead_m = contact.off_m(&frame, &domain.standing_balls_m).map(|off_m| off_m.dot(direction));
     let to_left = direction.y + turn_rate_rad_s / domain.turn_rate_max_rad_s;
     let left_is_behind = ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left + traits.first_foot_m;
     let lifts_left = contact.settling.swing().map_or(left_is_behind, |(side, _)| side == 0);

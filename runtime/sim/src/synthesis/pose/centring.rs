@@ -5,7 +5,6 @@
 //! slowly: a body that has just stopped does not creep. Root frame of the drawn body, metres.
 
 use glam::Vec2;
-use motiondb::body::RootFrame;
 
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::FootLock;
@@ -18,15 +17,14 @@ pub(crate) struct Centring {
 }
 
 impl Centring {
-    /// Moves the pelvis over one step, given the locks after the last one; returns its displacement, m. A body that steps
-    /// returns to its own place.
-    pub(crate) fn follow(&mut self, stands: bool, locks: &[FootLock; 2], frame: &RootFrame, step: &TimeStep) -> Vec2 {
-        let [left_m, right_m] = locks.each_ref().map(FootLock::planted_shift_m);
-        let target_m = match left_m.zip(right_m) {
-            _ if !stands => Vec2::ZERO,
-            Some((left_m, right_m)) => frame.vector_to_local(0.5 * (left_m + right_m)),
+    /// Moves the pelvis over one step, given the locks after the last one and how far each foot is from its place, m;
+    /// returns its displacement, m. A body that steps returns to its own place.
+    pub(crate) fn follow(&mut self, stands: bool, locks: &[FootLock; 2], off_m: &[Vec2; 2], step: &TimeStep) -> Vec2 {
+        let target_m = match stands {
+            true if locks.iter().all(FootLock::planted) => 0.5 * (off_m[0] + off_m[1]),
             // The pelvis waits for a foot that settles.
-            None => self.moved_m[0],
+            true => self.moved_m[0],
+            false => Vec2::ZERO,
         };
         step.centring.approach(&mut self.moved_m, target_m);
         self.moved_m[0]

@@ -35,6 +35,11 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis, ..Self::default() }
     }
 
+    /// How far the ball of each foot, as it was drawn last, is from a place in the root frame, forward and left, m.
+    pub(crate) fn off_m(&self, frame: &RootFrame, places_m: &[Vec2; 2]) -> [Vec2; 2] {
+        [0, 1].map(|side| frame.to_local(self.locks[side].ball_m()).truncate() - places_m[side])
+    }
+
     /// Moves the feet of a posture to their locks, swinging ones back towards the room and past the stance leg, and moves
     /// its pelvis to where the legs then reach.
     pub(crate) fn lock_feet(
@@ -55,9 +60,9 @@ impl ContactState {
             let posed = posed_foot(frame, foot, soles_m[side]);
             let moved_m = if motion.is_new { Vec2::ZERO } else { self.locks[side].posed_displacement_m(&posed) };
             let posed_later_m = frame.to_local(posed.ankle_m + (LAG_S / step.dt_s * moved_m).extend(0.0));
-            let settling_m = self.settling.target_m(side);
-            let target_m = settling_m.unwrap_or(Vec2::ZERO);
-            let later_m = posed_later_m + frame.vector_to_local(target_m).extend(0.0);
+            let landing_m = self.settling.landing_m(side, &motion.places_m);
+            let settling_m = landing_m.map(|landing_m| landing_m - soles_m[side][1].truncate());
+            let later_m = settling_m.map_or(posed_later_m, |settling_m| foot.ankle_m + settling_m.extend(0.0));
             let sole_later_m = soles_m[side].map(|point_m| point_m + later_m - foot.ankle_m);
             let radius_m = skeleton.segment_radii_m[Joint::TOES[side].index()];
             let into_room_m = back_m(sole_later_m, radius_m, room);
@@ -68,7 +73,7 @@ impl ContactState {
             } else {
                 Vec2::ZERO
             };
-            let away_m = frame.forward.rotate(into_room_m + past_stance_m) + target_m;
+            let away_m = frame.forward.rotate(into_room_m + past_stance_m + settling_m.unwrap_or_default());
             let (planted, contact_ahead) = (motion.planted[side], motion.contacts_ahead[side]);
             let footing = Footing { planted, contact_ahead, away_m, pivot_rad, settles: settling_m.is_some() };
             let lock = self.locks[side].step(&posed, &footing, step);
@@ -94,6 +99,8 @@ pub(crate) struct FootMotion {
     pub(crate) planted: [bool; 2],
     /// Contact of each foot [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
     pub(crate) contacts_ahead: [f32; 2],
+    /// Places of the balls of the feet of a body that has come to rest, in the frame of the drawn body, m.
+    pub(crate) places_m: [Vec2; 2],
     /// Turn rate of the body, rad/s.
     pub(crate) turn_rate_rad_s: f32,
     /// Whether the body is as fast as people who run.

@@ -144,7 +144,11 @@ impl FootLock {
         if is_held {
             self.hold(posed, lowest, [angle_between_rad(self.heading_m, heading_m), pivot_rad], step);
         } else {
-            self.release(away_m, if settles { &step.settling } else { &step.lock_release });
+            if settles {
+                self.settle(posed, away_m, step);
+            } else {
+                self.release(away_m, &step.lock_release);
+            }
             self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_m, self.ankle_m) =
@@ -164,12 +168,9 @@ impl FootLock {
         self.planted.then_some(self.shift_m[0])
     }
 
-    /// Distance of a planted foot from a point relative to where the pose has it, m; a twist beyond
-    /// [`TWIST_TOLERANCE_RAD`] adds the way of the toes.
-    pub(crate) fn planted_off_m(&self, target_m: Vec2) -> Option<f32> {
-        let off_m =
-            self.shift_m[0].distance(target_m) + TOES_M * (self.twist_rad[0].abs() - TWIST_TOLERANCE_RAD).max(0.0);
-        self.planted.then_some(off_m)
+    /// Way of the toes by which the foot is twisted beyond [`TWIST_TOLERANCE_RAD`], m.
+    pub(crate) fn twisted_off_m(&self) -> f32 {
+        TOES_M * (self.twist_rad[0].abs() - TWIST_TOLERANCE_RAD).max(0.0)
     }
 
     /// Position of the ball of the drawn foot, m.
@@ -223,6 +224,17 @@ impl FootLock {
         let rested_m = self.sole_m[self.lowest];
         let along_m = self.sole_m[lowest] - rested_m;
         rested_m.truncate() + along_m.truncate().normalize_or_zero() * along_m.length()
+    }
+
+    /// Moves the foot by a filter to where the pose has it but for a shift, and its twist to none. The foot does not follow
+    /// the pose: the filter starts from where the foot was on the ground and from its velocity there, which the shift, being
+    /// relative to the pose, has only together with the pose's displacement.
+    fn settle(&mut self, posed: &PosedFoot, shift_m: Vec2, step: &TimeStep) {
+        let moved_m = self.posed_displacement_m(posed);
+        self.shift_m[0] -= moved_m;
+        self.shift_m[1] += moved_m / step.dt_s;
+        self.release(shift_m, &step.settling);
+        self.shift_m[1] -= moved_m / step.dt_s;
     }
 
     /// Lets the shift decay to another, and the twist to none, by a filter.
