@@ -45,7 +45,7 @@ impl Body {
             }
         }
         if command.step_state.stands {
-            motion.stand(extra, context, step);
+            motion.stand(extra, &command.step_state, context, step);
         }
         let target = motion.target(command, &reachable, context);
         motion.approach(target, &reachable, command, context, step.dt_s);
@@ -66,7 +66,7 @@ impl Body {
         extra.decay(step);
         motion.end_transition(extra, command.step_state.stands, context, step);
         motion.select(&plan, command.step_state.walks_on(&reachable), context, step.dt_s);
-        motion.switch(extra, phase_before, context, step);
+        motion.switch(extra, phase_before, &command.step_state, context, step);
         if reverses {
             motion.jump(extra, context, step, MotionState::reverse);
         }

@@ -13,7 +13,7 @@ use crate::planning::elbow_room::ElbowRoom;
 use crate::planning::plan::{PLANTED_CONTACT, Plan};
 use crate::synthesis::blending::{BlendDomain, ExampleMix};
 use crate::synthesis::command::plan_requesting;
-use crate::synthesis::{BodyOutput, HmsParams, Modes, SynthesisContext};
+use crate::synthesis::{BodyOutput, HmsParams, Mode, Modes, SynthesisContext};
 use crate::test_db::test_db;
 
 const DT_S: f32 = 1.0 / 30.0;
@@ -197,6 +197,48 @@ fn a_stopping_body_soon_has_its_feet_together() {
         let landed = walk.steps.iter().rposition(is_in_air).unwrap();
         let closing_s = DT_S * (landed - braked) as f32;
         assert!(closing_s < 1.5, "{offset}: the last foot lands {closing_s} s after 0.5 m/s");
+    }
+}
+
+/// Least time for which a foot stood before it lifted, s, of those that had landed.
+fn shortest_stand_s(contacts: &[[f32; 2]], dt_s: f32) -> f32 {
+    let stands = |side: usize| {
+        let planted: Vec<bool> = contacts.iter().map(|contacts| contacts[side] >= PLANTED_CONTACT).collect();
+        let runs: Vec<&[bool]> = planted.chunk_by(|a, b| a == b).collect();
+        // Neither the first nor the last: its beginning or its end is not known.
+        let inner = runs.get(1..runs.len() - 1).unwrap_or_default();
+        inner.iter().filter(|run| run[0]).map(|run| run.len() as f32 * dt_s).fold(f32::INFINITY, f32::min)
+    };
+    stands(0).min(stands(1))
+}
+
+#[test]
+fn a_foot_that_has_just_landed_stays_where_a_body_goes_on() {
+    let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+    let context = SynthesisContext::new(Arc::new(test_db()), params);
+    for again_s in (0..24).map(|step| 2.4 + 0.05 * step as f32) {
+        let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < 2.0 || time_s > again_s { 1.0 } else { 0.0 });
+        let contacts = context.walk_alone(0.3, again_s + 2.0, DT_S, plan, |_, output| output.contacts);
+        let stood_s = shortest_stand_s(&contacts, DT_S);
+        assert!(stood_s > 0.2, "goes on at {again_s} s: a foot lifts {stood_s} s after it has landed");
+    }
+}
+
+#[test]
+fn a_foot_in_the_air_does_not_land_where_slow_steps_change_to_blending() {
+    let context = SynthesisContext::new(Arc::new(test_db()), HmsParams::default());
+    for slower_s in (0..10).map(|step| 1.5 + 0.1 * step as f32) {
+        // Something is near, so the body leaves semi-procedural locomotion only because it becomes slow.
+        let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < slower_s { 0.8 } else { 0.25 });
+        let steps = context.walk_alone(0.3, 5.0, DT_S, plan, |body, _| {
+            let motion = &body.motion;
+            (motion.mode, motion.now(&context).active.contacts(&context, motion.phase))
+        });
+        let last = steps.iter().rposition(|(mode, _)| *mode == Mode::SemiProcedural).unwrap();
+        let (before, after) = (steps[last].1, steps[last + 1].1);
+        let swings = |side: &usize| before[*side] < PLANTED_CONTACT;
+        let side = (0..2).find(swings).unwrap();
+        assert!(after[side] < PLANTED_CONTACT, "slower at {slower_s} s: {before:?}, then {after:?}");
     }
 }
 

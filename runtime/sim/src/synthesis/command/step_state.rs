@@ -109,10 +109,15 @@ impl StepState {
         !self.stands && reachable.idle_share > IDLE_SHARE_MAX && slows_down().idle_share > STOP_IDLE_SHARE
     }
 
+    /// Whether the body steps only until both feet are planted.
+    pub(crate) fn is_stopping(&self) -> bool {
+        self.stopping_s > 0.0
+    }
+
     /// Whether the body stops where its swinging foot lands. A foot that swings for longer has a long step, and its root must
     /// come over the other one.
     pub(crate) fn stops(&self) -> bool {
-        self.stopping_s > 0.0 && self.stopping_s < LAST_STEP_S
+        self.is_stopping() && self.stopping_s < LAST_STEP_S
     }
 
     /// Whether the body walks and its command continues the walk.
@@ -142,14 +147,15 @@ impl StepState {
         } else {
             reachable
         };
-        let playback_rate_min = if self.stopping_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
+        let playback_rate_min = if self.is_stopping() { 1.0 } else { PLAYBACK_RATE_MIN };
         // Standing lies at the origin, so a scaled point has the scaled share of steps.
         let stepping_share = (1.0 - steps.idle_share).max(1.0 - HALT_IDLE_SHARE);
         let scale = (playback_rate_min * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
         Parameters::from_vec3(scale * steps.parameters.to_vec3())
     }
 
-    /// Shares, and playback rate over that of the body's steps, for parameters that the examples reach.
+    /// Shares, and playback rate over that of the body's steps, for parameters that the examples reach. It may be less than
+    /// [`PLAYBACK_RATE_MIN`].
     pub(crate) fn playback(&self, reachable: &Reachable, domain: &BlendDomain) -> (Shares, f32) {
         let stepping_share = 1.0 - reachable.idle_share;
         if self.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
@@ -157,7 +163,7 @@ impl StepState {
         }
         let rate = stepping_share / (1.0 - IDLE_SHARE_MAX);
         let least_steps = Parameters::from_vec3(reachable.parameters.to_vec3() / (rate * reachable.playback_rate));
-        (domain.locate(least_steps), rate.max(PLAYBACK_RATE_MIN))
+        (domain.locate(least_steps), rate)
     }
 }
 

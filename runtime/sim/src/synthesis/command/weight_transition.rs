@@ -60,7 +60,7 @@ pub(crate) fn follow(
             pose_limited_fraction(mix, &shares, context, dt_s).min(next_part / part.max(f32::MIN_POSITIVE)).min(1.0);
         ShareTarget {
             shares,
-            playback_rate: slowing * reachable.playback_rate,
+            playback_rate: slowing.max(PLAYBACK_RATE_MIN) * reachable.playback_rate,
             creeps: slowing <= PLAYBACK_RATE_MIN,
             falls_short: reachable.parameters.to_vec3().distance(point.to_vec3()) > REACHED,
             fraction,

@@ -8,6 +8,7 @@ use motiondb::motion::{Parameters, wrapped};
 
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::ExampleMix;
+use crate::synthesis::command::step_state::StepState;
 use crate::synthesis::hybrid::extra_state::ExtraState;
 use crate::synthesis::hybrid::mode_selection::{ModeSelection, ModeThresholds};
 use crate::synthesis::hybrid::motion_state::{Moment, MotionState};
@@ -53,6 +54,7 @@ impl MotionState {
         &mut self,
         extra: &mut ExtraState,
         phase_before: f32,
+        step_state: &StepState,
         context: &SynthesisContext,
         step: &TimeStep,
     ) {
@@ -64,7 +66,7 @@ impl MotionState {
         }
         let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
         self.jump(extra, context, step, |motion| {
-            motion.take_over(to, context);
+            motion.take_over(to, step_state, context);
             let phases = PHASE_OFFSETS.map(|offset| wrapped(motion.phase + phase_jump + offset));
             motion.phase = motion.most_similar_phase(&soles_m, phases, context);
         });
@@ -87,15 +89,22 @@ impl MotionState {
     }
 
     /// Lets a body that stands blend at once, without a pair of T: m_sp would take one more step before it passes one.
-    pub(crate) fn stand(&mut self, extra: &mut ExtraState, context: &SynthesisContext, step: &TimeStep) {
+    pub(crate) fn stand(
+        &mut self,
+        extra: &mut ExtraState,
+        step_state: &StepState,
+        context: &SynthesisContext,
+        step: &TimeStep,
+    ) {
         if self.mode == Mode::SemiProcedural {
             self.selection = ModeSelection::BLENDING;
-            self.jump(extra, context, step, |motion| motion.take_over(Mode::Blending, context));
+            self.jump(extra, context, step, |motion| motion.take_over(Mode::Blending, step_state, context));
         }
     }
 
-    /// Makes a mode active at the current parameters.
-    fn take_over(&mut self, mode: Mode, context: &SynthesisContext) {
+    /// Makes a mode active at the current parameters. A body that walks on takes the least steps at least, with which a foot in
+    /// the air stays there; in the mix of one that stops it lands.
+    fn take_over(&mut self, mode: Mode, step_state: &StepState, context: &SynthesisContext) {
         match mode {
             Mode::SemiProcedural => {
                 self.parameters = self.mix.parameters(&context.db);
@@ -105,7 +114,12 @@ impl MotionState {
             }
             Mode::Blending | Mode::Transition => {
                 let reachable = context.domain.reachable_with(self.parameters, self.traits.cadence);
-                self.mix = ExampleMix::played(&reachable.shares, reachable.playback_rate);
+                let (shares, slowing) = if step_state.is_stopping() {
+                    (reachable.shares, 1.0)
+                } else {
+                    step_state.playback(&reachable, &context.domain)
+                };
+                self.mix = ExampleMix::played(&shares, slowing * reachable.playback_rate);
                 // Smoothing starts without a lag: inertialization carries what the old pose still lagged.
                 self.smoothed.iter_mut().for_each(|smoothed| smoothed.mix = self.mix);
             }

@@ -21,6 +21,9 @@ const OFF_MAX_M: f32 = 0.07;
 const DURATION_S: f32 = 0.44;
 /// Least time for which a foot that has landed stays on the ground, s: it carries the body.
 const STAY_S: f32 = 0.3;
+/// Time until it lands, s, up to which a foot cannot make the first step of a body that starts: it would touch the ground, and
+/// lift again once the steps have faded in.
+const LANDING_S: f32 = 0.2;
 /// Greatest distance by which both feet may be ahead of their places, m: one that the last step of a walk has brought ahead
 /// need not step back.
 const AHEAD_MAX_M: f32 = 0.05;
@@ -81,6 +84,16 @@ impl SettlingStep {
     /// The foot in the air, and the time until it lands, s; 0 or less in the step within which it lands.
     pub(crate) fn swing(&self) -> Option<(usize, f32)> {
         self.swing
+    }
+
+    /// The foot with which a body starts while a foot settles or has just landed: the one in the air, or, if it lands soon or has
+    /// landed, the other one.
+    pub(crate) fn first_foot(&self) -> Option<usize> {
+        let stays = self.stood_s.map(|stood_s| stood_s <= STAY_S);
+        match self.swing {
+            Some((side, left_s)) => Some(if left_s > LANDING_S { side } else { 1 - side }),
+            None => (stays[0] != stays[1]).then(|| usize::from(stays[0])),
+        }
     }
 
     /// Where the ball of a foot that settles is to land, given the places of both, m.
