@@ -17,8 +17,8 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 const SIDE_LEAD_M: f32 = 0.1;
 
 /// Phase of the first step; the phase of a standing body is free, since standing hardly moves. The foot that lifts is
-/// the one in the air already, but not one that lands soon or has just landed; then the one further behind, or the one on the
-/// side of the step; where none is, the body's first foot. So the other foot is under the body.
+/// the one that a settling step leaves (`SettlingStep::foot_to_lift`), the one further behind, or the one on the side of
+/// the step; where none is, the body's first foot. So the other foot is under the body.
 pub(crate) fn first_step_phase(
     command: Parameters,
     contact: &ContactState,
@@ -31,7 +31,7 @@ pub(crate) fn first_step_phase(
     let ahead_m = contact.off_m(&frame, &domain.standing_balls_m).map(|off_m| off_m.dot(direction));
     let to_left = direction.y + turn_rate_rad_s / domain.turn_rate_max_rad_s;
     let left_is_behind = ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left + traits.first_foot_m;
-    let lifts_left = contact.settling.first_foot().map_or(left_is_behind, |side| side == 0);
+    let lifts_left = contact.settling.foot_to_lift().map_or(left_is_behind, |side| side == 0);
     let passing_phase = if lifts_left { 1.0 } else { 0.5 };
     passing_phase - LIFT_OFF_PHASE
 }

@@ -154,8 +154,8 @@ impl StepState {
         Parameters::from_vec3(scale * steps.parameters.to_vec3())
     }
 
-    /// Shares, and playback rate over that of the body's steps, for parameters that the examples reach. It may be less than
-    /// [`PLAYBACK_RATE_MIN`].
+    /// Shares, and playback rate over that of the body's steps, for parameters that the examples reach. For very slow ones the
+    /// rate is less than [`PLAYBACK_RATE_MIN`].
     pub(crate) fn playback(&self, reachable: &Reachable, domain: &BlendDomain) -> (Shares, f32) {
         let stepping_share = 1.0 - reachable.idle_share;
         if self.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {

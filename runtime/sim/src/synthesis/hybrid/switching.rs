@@ -102,8 +102,8 @@ impl MotionState {
         }
     }
 
-    /// Makes a mode active at the current parameters. A body that walks on takes the least steps at least, with which a foot in
-    /// the air stays there; in the mix of one that stops it lands.
+    /// Makes a mode active at the current parameters. A body that walks on takes the least steps, if not longer ones: a foot in
+    /// the air stays there. A body that stops takes the mix that its speed has by itself: the foot lands, and the root stops.
     fn take_over(&mut self, mode: Mode, step_state: &StepState, context: &SynthesisContext) {
         match mode {
             Mode::SemiProcedural => {

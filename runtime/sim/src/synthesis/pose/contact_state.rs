@@ -35,7 +35,7 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis, ..Self::default() }
     }
 
-    /// How far the ball of each foot, as it was drawn last, is from a place in the root frame, forward and left, m.
+    /// How far the ball of each foot, as it was drawn last, is from its place, forward and left; both in a frame, m.
     pub(crate) fn off_m(&self, frame: &RootFrame, places_m: &[Vec2; 2]) -> [Vec2; 2] {
         [0, 1].map(|side| frame.to_local(self.locks[side].ball_m()).truncate() - places_m[side])
     }

@@ -21,10 +21,10 @@ const OFF_MAX_M: f32 = 0.07;
 const DURATION_S: f32 = 0.44;
 /// Least time for which a foot that has landed stays on the ground, s: it carries the body.
 const STAY_S: f32 = 0.3;
-/// Time until it lands, s, up to which a foot cannot make the first step of a body that starts: it would touch the ground, and
-/// lift again once the steps have faded in.
+/// Time before its landing within which a foot does not make the first step of a body that starts, s: it would touch the ground,
+/// and lift again once the steps have faded in.
 const LANDING_S: f32 = 0.2;
-/// Greatest distance by which both feet may be ahead of their places, m: one that the last step of a walk has brought ahead
+/// Greatest distance by which both feet may be ahead of their places, m: a foot that the last step of a walk has brought ahead
 /// need not step back.
 const AHEAD_MAX_M: f32 = 0.05;
 /// Share of its displacement along the facing by which a foot lands short of its place, and the most, m.
@@ -86,14 +86,14 @@ impl SettlingStep {
         self.swing
     }
 
-    /// The foot with which a body starts while a foot settles or has just landed: the one in the air, or, if it lands soon or has
-    /// landed, the other one.
-    pub(crate) fn first_foot(&self) -> Option<usize> {
-        let stays = self.stood_s.map(|stood_s| stood_s <= STAY_S);
-        match self.swing {
-            Some((side, left_s)) => Some(if left_s > LANDING_S { side } else { 1 - side }),
-            None => (stays[0] != stays[1]).then(|| usize::from(stays[0])),
-        }
+    /// The foot that a body has to lift which starts to step while a foot is in the air or one alone has just landed: the foot in
+    /// the air, or the other one if it lands soon; the other one of a foot that has landed.
+    pub(crate) fn foot_to_lift(&self) -> Option<usize> {
+        let Some((side, left_s)) = self.swing else {
+            let stays = self.stood_s.map(|stood_s| stood_s <= STAY_S);
+            return (stays[0] != stays[1]).then(|| usize::from(stays[0]));
+        };
+        Some(if left_s > LANDING_S { side } else { 1 - side })
     }
 
     /// Where the ball of a foot that settles is to land, given the places of both, m.
